@@ -1,0 +1,36 @@
+# What every target of ours is compiled with: `swath_options` carries it, `swath_library` applies it.
+add_library(swath_options INTERFACE)
+target_include_directories(swath_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(swath_options SYSTEM INTERFACE ${SWATH_EXPECTED_INCLUDE})
+target_compile_options(swath_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor
+  # Floating point contraction would make depths and cull decisions depend on the compiler.
+  -ffp-contract=off)
+target_compile_definitions(swath_options INTERFACE GLM_FORCE_CTOR_INIT GLM_ENABLE_EXPERIMENTAL)
+target_link_libraries(swath_options INTERFACE glm::glm fmt::fmt Threads::Threads)
+if(SWATH_WERROR)
+  target_compile_options(swath_options INTERFACE -Werror)
+endif()
+if(SWATH_SANITIZE)
+  target_compile_options(swath_options INTERFACE -fsanitize=${SWATH_SANITIZE} -fno-omit-frame-pointer -g)
+  target_link_options(swath_options INTERFACE -fsanitize=${SWATH_SANITIZE})
+  if(SWATH_SANITIZE STREQUAL "undefined")
+    target_compile_options(swath_options INTERFACE -fno-sanitize-recover=all)
+  endif()
+endif()
+
+# swath_library(NAME SOURCES... ): a static library with the options above.
+function(swath_library name)
+  add_library(${name} STATIC ${ARGN})
+  target_link_libraries(${name} PUBLIC swath_options)
+endfunction()
+
+# swath_test(NAME LABEL SOURCES...): a GoogleTest program; every TEST becomes a ctest test with LABEL.
+include(GoogleTest)
+function(swath_test name label)
+  add_executable(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE swath_options GTest::gmock GTest::gtest GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS ${label} TIMEOUT 300)
+endfunction()

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+
+namespace swath {
+
+// A block of bytes that grows without being zeroed and keeps its capacity when it is reused. Movable, not
+// copied: pixel bodies are megabytes.
+class Buffer {
+  public:
+    Buffer() = default;
+    explicit Buffer(std::size_t size) { resize(size); }
+
+    std::uint8_t* data() { return data_.get(); }
+    const std::uint8_t* data() const { return data_.get(); }
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    std::span<const std::uint8_t> bytes() const { return {data_.get(), size_}; }
+
+    // The contents up to the smaller size survive; what is new is uninitialised.
+    void resize(std::size_t size) {
+        if (size > capacity_) grow(size);
+        size_ = size;
+    }
+    void append(const void* from, std::size_t count) {
+        if (count == 0) return;
+        const std::size_t at = size_;
+        resize(at + count);
+        std::memcpy(data_.get() + at, from, count);
+    }
+
+  private:
+    void grow(std::size_t size) {
+        const std::size_t capacity = size > 2 * capacity_ ? size : 2 * capacity_;
+        auto bigger = std::make_unique_for_overwrite<std::uint8_t[]>(capacity);
+        if (size_ > 0) std::memcpy(bigger.get(), data_.get(), size_);
+        data_ = std::move(bigger);
+        capacity_ = capacity;
+    }
+
+    std::unique_ptr<std::uint8_t[]> data_;
+    std::size_t size_ = 0;
+    std::size_t capacity_ = 0;
+};
+
+}  // namespace swath

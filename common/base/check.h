@@ -1,0 +1,73 @@
+#pragma once
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace swath {
+
+// Thrown when one of our own invariants is broken: a bug, never bad input.
+struct CheckFailed : std::logic_error {
+    using std::logic_error::logic_error;
+};
+
+namespace check_detail {
+
+[[noreturn]] void failed(const char* expression, const char* file, int line, const std::string& values);
+
+template <class T>
+void print(std::ostream& out, const T& value) {
+    if constexpr (requires { out << value; }) {
+        out << value;
+    } else {
+        out << "?";
+    }
+}
+
+// The outcome of a comparison together with the text of both sides (made only when it failed).
+struct Outcome {
+    bool ok;
+    std::string values;
+};
+
+template <class L>
+struct Left {
+    const L& left;
+
+    template <class R>
+    Outcome outcome(bool ok, const char* op, const R& right) const {
+        if (ok) return {true, {}};
+        std::ostringstream out;
+        print(out, left);
+        out << ' ' << op << ' ';
+        print(out, right);
+        return {false, out.str()};
+    }
+    // clang-format off
+    template <class R> Outcome operator==(const R& r) const { return outcome(left == r, "==", r); }
+    template <class R> Outcome operator!=(const R& r) const { return outcome(left != r, "!=", r); }
+    template <class R> Outcome operator<(const R& r) const { return outcome(left < r, "<", r); }
+    template <class R> Outcome operator<=(const R& r) const { return outcome(left <= r, "<=", r); }
+    template <class R> Outcome operator>(const R& r) const { return outcome(left > r, ">", r); }
+    template <class R> Outcome operator>=(const R& r) const { return outcome(left >= r, ">=", r); }
+    // clang-format on
+    operator Outcome() const { return {static_cast<bool>(left), "false"}; }
+};
+
+struct Start {
+    template <class L>
+    Left<L> operator<<(const L& left) const {
+        return {left};
+    }
+};
+
+}  // namespace check_detail
+}  // namespace swath
+
+// CHECK(a == b): stays on in release builds; on failure throws CheckFailed naming both values.
+#define CHECK(expression)                                                                               \
+    do {                                                                                                \
+        const ::swath::check_detail::Outcome swath_check_outcome = ::swath::check_detail::Start{}       \
+                                                                   << expression;                       \
+        if (!swath_check_outcome.ok)                                                                    \
+            ::swath::check_detail::failed(#expression, __FILE__, __LINE__, swath_check_outcome.values); \
+    } while (false)

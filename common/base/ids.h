@@ -1,0 +1,19 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace swath {
+
+// A server's place in the cluster, 0 to N-1.
+enum class ServerId : std::uint32_t {};
+constexpr std::size_t index(ServerId id) { return static_cast<std::size_t>(id); }
+constexpr ServerId server_id(std::size_t i) { return static_cast<ServerId>(i); }
+
+// An object's place in its ObjectSet. Ascending ids are the drawing order and break depth ties.
+using ObjectId = std::uint32_t;
+inline constexpr ObjectId kNoObject = 0x7fffffff;  // larger than every real id, also as a signed number
+inline constexpr ObjectId kMaxObjects = 0x7fffffff;
+
+using FrameNumber = std::uint64_t;
+
+}  // namespace swath

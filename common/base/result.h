@@ -1,0 +1,34 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+namespace swath {
+
+// What went wrong, as one line a person can act on: it names the thing (file, flag, peer, field) and the
+// limit.
+struct Error {
+    std::string message;
+    bool operator==(const Error&) const = default;
+};
+
+// A value or an Error. Everything that a file, a peer or a user can get wrong is reported this way; nothing
+// of theirs is ever asserted.
+template <class T>
+using Result = tl::expected<T, Error>;
+using Status = tl::expected<void, Error>;
+
+// return fail("{}: truncated after {} bytes", path, n);
+template <class... Args>
+tl::unexpected<Error> fail(fmt::format_string<Args...> format, Args&&... args) {
+    return tl::unexpected<Error>(Error{fmt::format(format, std::forward<Args>(args)...)});
+}
+
+// Passes an error on with a prefix that says where it happened.
+inline tl::unexpected<Error> fail_in(std::string_view where, const Error& error) {
+    return tl::unexpected<Error>(Error{fmt::format("{}: {}", where, error.message)});
+}
+
+}  // namespace swath

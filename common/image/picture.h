@@ -1,0 +1,33 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/base/buffer.h"
+#include "common/base/result.h"
+
+namespace swath {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+// A finished picture: 8-bit RGB, rows bottom-up without padding, 3 * width * height bytes.
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb;
+    bool operator==(const Picture&) const = default;
+};
+
+enum class PictureFormat { kNone, kPng, kJpeg };
+
+// The file's bytes: PNG (lossless, fast settings; the same picture always gives the same bytes) or JPEG
+// (quality 90, 4:2:0). Top-down in the file, as viewers expect. CHECKs that format is not kNone.
+Buffer encode(const Picture& picture, PictureFormat format);
+std::string file_extension(PictureFormat format);  // "png", "jpg"
+
+// For tests and comparisons: a PNG's pixels as a Picture.
+Result<Picture> decode_png(std::span<const std::uint8_t> bytes);
+
+}  // namespace swath

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "common/base/check.h"
+#include "common/base/ids.h"
+#include "common/geometry/rect.h"
+
+namespace swath {
+
+// Depth of a pixel that nothing has touched. A drawn pixel is nearer: GL_LESS never lets 1 pass.
+inline constexpr float kFarDepth = 1.0f;
+
+// Colour, depth and object id of the pixels of one rectangle, in three planes, rows bottom-up without
+// padding. Owned by one thread at a time; movable. A pixel with depth kFarDepth is background: its colour and
+// id mean nothing.
+class PixelFrame {
+  public:
+    // The planes hold whatever they held: the owner fills them.
+    void reshape(const Rect& rect);
+    const Rect& rect() const { return rect_; }
+
+    // Pixel (x, y) of the screen; the rest of its row follows. (x, y) lies in rect().
+    std::uint32_t* colour(int x, int y) {
+        return colour_.get() + offset(x, y);
+    }  // R in the low byte, then G, B, A
+    float* depth(int x, int y) { return depth_.get() + offset(x, y); }
+    ObjectId* id(int x, int y) { return id_.get() + offset(x, y); }
+    const std::uint32_t* colour(int x, int y) const { return colour_.get() + offset(x, y); }
+    const float* depth(int x, int y) const { return depth_.get() + offset(x, y); }
+    const ObjectId* id(int x, int y) const { return id_.get() + offset(x, y); }
+
+    // Makes the pixels of `rect` background.
+    void clear(const Rect& rect);
+
+  private:
+    std::size_t offset(int x, int y) const {
+        return static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
+               static_cast<std::size_t>(x - rect_.x0);
+    }
+
+    Rect rect_;
+    std::size_t capacity_ = 0;
+    std::unique_ptr<std::uint32_t[]> colour_;
+    std::unique_ptr<float[]> depth_;
+    std::unique_ptr<ObjectId[]> id_;
+};
+
+}  // namespace swath

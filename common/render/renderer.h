@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+
+#include "common/base/ids.h"
+#include "common/base/result.h"
+#include "common/geometry/camera.h"
+#include "common/image/pixel_frame.h"
+#include "common/scene/objects.h"
+
+namespace swath {
+
+enum class RendererKind { kOsmesa, kEgl };
+
+// Draws objects of one ObjectSet and hands out the pixels. What it draws for a pixel depends on the objects
+// and the view only, never on the other pixels asked for: that is what makes a cluster's picture exact. A
+// resource bound to the thread that made it: every call comes from there.
+class Renderer {
+  public:
+    virtual ~Renderer() = default;
+
+    // Draws `objects` (ascending ids) with the view's full viewport, limited to `rect`. Blocks until it is
+    // drawn. A nearer fragment wins; of equal depths the one drawn first, so the smaller id.
+    virtual Status draw(std::span<const ObjectId> objects, const View& view, const Rect& rect) = 0;
+
+    // Colour, depth and id of `rect` of the last draw, into `frame`, which must contain it.
+    virtual Status read(const Rect& rect, PixelFrame& frame) = 0;
+
+    // For people: library, version, limits.
+    virtual std::string description() const = 0;
+};
+
+// Makes a renderer on the calling thread. The scene must outlive it. Fails when the library or the driver is
+// missing, or the scene does not fit.
+Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, const ObjectSet& scene);
+
+// llvmpipe gives and takes large blocks each frame: keeps glibc from returning them to the system in between
+// (a quarter of the frame's time otherwise). Call once in main, before the first context.
+void tune_allocator();
+
+}  // namespace swath

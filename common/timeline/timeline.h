@@ -1,0 +1,73 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/clock.h"
+#include "common/base/ids.h"
+
+namespace swath {
+
+// What a machine can be doing for a frame. The same names for measured and simulated frames (see
+// docs/design.md).
+enum class Phase : std::uint8_t {
+    kPartition,   // client: objects and camera to a plan
+    kCull,        // server: objects of the group against the frustum
+    kRender,      // server: drawing until it is finished
+    kPixelRead,   // server: colour, depth and id to host memory
+    kSwap,        // server: coding and sending swath pixels to peers
+    kPixelWrite,  // server: merging received pixels ("composite" where the host does it)
+    kFinalRead,   // server: gathering the finished tile's active pixels
+    kSend,        // server: handing the tile to the display's connection
+    kAssemble,    // display: tiles into the picture
+    kEncode,      // display: the picture into a PNG or JPEG
+    kWait,        // any: nothing to do until a message comes
+};
+inline constexpr std::size_t kPhaseCount = 11;
+std::string_view name(Phase phase);  // "partition", "cull", "render", "pixel read", ...
+
+// What a machine counted for a frame.
+enum class Counter : std::uint8_t {
+    kTriangles,       // server: drawn after culling
+    kObjects,         // server: drawn after culling
+    kSwapPixels,      // server: active pixels sent to peers
+    kSwapBytes,       // server: bytes of those messages, framing included
+    kTilePixels,      // server: active pixels sent to the display
+    kTileBytes,       // server: bytes of that message, framing included
+    kReceivedPixels,  // server: active pixels merged
+};
+inline constexpr std::size_t kCounterCount = 7;
+std::string_view name(Counter counter);  // "triangles", "objects", "swap_pixels", ...
+
+// One stretch of one phase. Times are on the client's clock.
+struct Span {
+    Phase phase = Phase::kWait;
+    Nanoseconds begin{0};
+    Nanoseconds end{0};
+    Nanoseconds cpu{0};  // CPU time of the thread that did it; 0 where unknown
+    bool operator==(const Span&) const = default;
+};
+
+// One machine's part of a frame.
+struct MachineTimeline {
+    std::string machine;  // "client", "server 0", "display"
+    std::vector<Span> spans;
+    std::array<std::uint64_t, kCounterCount> counters{};
+    std::uint64_t& operator[](Counter c) { return counters[static_cast<std::size_t>(c)]; }
+    std::uint64_t operator[](Counter c) const { return counters[static_cast<std::size_t>(c)]; }
+    bool operator==(const MachineTimeline&) const = default;
+};
+
+// What happened, or would happen, in one frame on every machine. A value; measured by the cluster or made by
+// the simulator. Spans of one machine may overlap those of its neighbouring frames.
+struct FrameTimeline {
+    FrameNumber frame = 0;
+    std::vector<MachineTimeline> machines;
+    double overlap_factor =
+        1.0;  // triangles assigned to servers / triangles of the model (Samanta 2000, section 3)
+    bool operator==(const FrameTimeline&) const = default;
+};
+
+}  // namespace swath
