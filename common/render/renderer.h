@@ -7,11 +7,10 @@
 #include "common/base/result.h"
 #include "common/geometry/camera.h"
 #include "common/image/pixel_frame.h"
+#include "common/render/renderer_kind.h"
 #include "common/scene/objects.h"
 
 namespace swath {
-
-enum class RendererKind { kOsmesa, kEgl };
 
 // Draws objects of one ObjectSet and hands out the pixels. What it draws for a pixel depends on the objects
 // and the view only, never on the other pixels asked for: that is what makes a cluster's picture exact. A
@@ -34,9 +33,5 @@ class Renderer {
 // Makes a renderer on the calling thread. The scene must outlive it. Fails when the library or the driver is
 // missing, or the scene does not fit.
 Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, const ObjectSet& scene);
-
-// llvmpipe gives and takes large blocks each frame: keeps glibc from returning them to the system in between
-// (a quarter of the frame's time otherwise). Call once in main, before the first context.
-void tune_allocator();
 
 }  // namespace swath

@@ -1,0 +1,299 @@
+#include "common/image/pixel_codec.h"
+
+#include <bit>
+#include <cstring>
+#include <vector>
+
+#include "common/base/check.h"
+
+namespace swath {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "bodies are little-endian and copied as they are");
+
+constexpr std::uint32_t kFarBits = std::bit_cast<std::uint32_t>(kFarDepth);
+constexpr int kChunk = 16;  // pixels that the span search looks at together
+
+bool active(float depth) { return depth < kFarDepth; }
+
+// The first x in [x, end) whose pixel is active (kWanted) or not, else end. Whole chunks without one are
+// skipped.
+template <bool kWanted>
+int find(const float* row, int x, int end) {
+    while (x + kChunk <= end) {
+        unsigned hits = 0;
+        for (int i = 0; i < kChunk; ++i) hits += static_cast<unsigned>(active(row[x + i]) == kWanted);
+        if (hits != 0) break;
+        x += kChunk;
+    }
+    while (x < end && active(row[x]) != kWanted) ++x;
+    return x;
+}
+
+void put_u16(std::vector<std::uint8_t>& out, int value) {
+    out.push_back(static_cast<std::uint8_t>(value & 0xff));
+    out.push_back(static_cast<std::uint8_t>(value >> 8));
+}
+
+int get_u16(const std::uint8_t* from) { return from[0] | from[1] << 8; }
+
+void put_varint(std::vector<std::uint8_t>& out, std::uint32_t value) {
+    while (value >= 0x80) {
+        out.push_back(static_cast<std::uint8_t>(value | 0x80));
+        value >>= 7;
+    }
+    out.push_back(static_cast<std::uint8_t>(value));
+}
+
+bool get_varint(const std::uint8_t*& at, const std::uint8_t* end, std::uint32_t& value) {
+    value = 0;
+    for (int shift = 0; shift < 35; shift += 7) {
+        if (at == end) return false;
+        const std::uint32_t byte = *at++;
+        if (shift == 28 && byte > 0x0f) return false;
+        value |= (byte & 0x7f) << shift;
+        if (byte < 0x80) return true;
+    }
+    return false;
+}
+
+// Writes the span table of `region` and calls on_span(x, y, length) for each span.
+template <class OnSpan>
+std::uint32_t scan_spans(const PixelFrame& frame, const Region& region, std::vector<std::uint8_t>& table,
+                         const OnSpan& on_span) {
+    std::uint32_t pixels = 0;
+    for (const Rect& rect : region) {
+        CHECK(frame.rect().contains(rect) == true);
+        CHECK(rect.width() <= 0xffff);
+        for (int y = rect.y0; y < rect.y1; ++y) {
+            const float* row = frame.depth(rect.x0, y);
+            const std::size_t count_at = table.size();
+            put_u16(table, 0);
+            int count = 0;
+            for (int x = find<true>(row, 0, rect.width()); x < rect.width();) {
+                const int end = find<false>(row, x, rect.width());
+                put_u16(table, x);
+                put_u16(table, end - x);
+                on_span(rect.x0 + x, y, end - x);
+                pixels += static_cast<std::uint32_t>(end - x);
+                ++count;
+                x = find<true>(row, end, rect.width());
+            }
+            table[count_at] = static_cast<std::uint8_t>(count & 0xff);
+            table[count_at + 1] = static_cast<std::uint8_t>(count >> 8);
+        }
+    }
+    return pixels;
+}
+
+// Reads a span table against the region it must describe and calls on_span(x, y, length, pixels before).
+template <class OnSpan>
+Status walk_spans(std::span<const std::uint8_t> table, const Region& region, std::uint32_t pixels,
+                  const OnSpan& on_span) {
+    const std::uint8_t* at = table.data();
+    std::size_t left = table.size();
+    std::uint32_t done = 0;
+    for (const Rect& rect : region) {
+        for (int y = rect.y0; y < rect.y1; ++y) {
+            if (left < 2) return fail("spans: the table ends in row {}", y);
+            const int count = get_u16(at);
+            at += 2;
+            left -= 2;
+            if (left < 4 * static_cast<std::size_t>(count)) return fail("spans: the table ends in row {}", y);
+            int previous_end = 0;
+            for (int i = 0; i < count; ++i, at += 4, left -= 4) {
+                const int x = get_u16(at);
+                const int length = get_u16(at + 2);
+                if (length == 0 || x < previous_end || x + length > rect.width())
+                    return fail("spans: {} pixels from {} in a row of {}", length, x, rect.width());
+                if (static_cast<std::uint32_t>(length) > pixels - done)
+                    return fail("spans: more pixels than the {} announced", pixels);
+                on_span(rect.x0 + x, y, length, done);
+                done += static_cast<std::uint32_t>(length);
+                previous_end = x + length;
+            }
+        }
+    }
+    if (left != 0) return fail("spans: {} bytes too many", left);
+    if (done != pixels) return fail("spans: {} pixels where {} were announced", done, pixels);
+    return {};
+}
+
+Status check_sizes(std::span<const std::uint8_t> body, const BodySizes& sizes, std::uint64_t bytes_a_pixel,
+                   const Region& region) {
+    if (sizes.pixels > static_cast<std::uint64_t>(area(region)))
+        return fail("{} pixels for a region of {}", sizes.pixels, area(region));
+    const std::uint64_t wanted = bytes_a_pixel * sizes.pixels + sizes.span_bytes + sizes.id_bytes;
+    if (body.size() != wanted) return fail("a body of {} bytes where its head says {}", body.size(), wanted);
+    return {};
+}
+
+Status decode_ids(std::span<const std::uint8_t> bytes, std::uint32_t pixels, ObjectId limit,
+                  std::vector<ObjectId>& ids) {
+    ids.resize(pixels);
+    const std::uint8_t* at = bytes.data();
+    const std::uint8_t* const end = at + bytes.size();
+    std::uint32_t done = 0;
+    std::int64_t id = 0;
+    while (at != end) {
+        std::uint32_t length = 0;
+        std::uint32_t step = 0;
+        if (!get_varint(at, end, length) || !get_varint(at, end, step))
+            return fail("ids: a number is cut off or too long");
+        id += static_cast<std::int64_t>(step >> 1) ^ -static_cast<std::int64_t>(step & 1);
+        if (length == 0 || length > pixels - done)
+            return fail("ids: a run of {} where {} pixels are left", length, pixels - done);
+        if (id < 0 || id >= limit) return fail("ids: object {}, the limit is {}", id, limit);
+        std::fill_n(ids.begin() + done, length, static_cast<ObjectId>(id));
+        done += length;
+    }
+    if (done != pixels) return fail("ids: for {} of {} pixels", done, pixels);
+    return {};
+}
+
+}  // namespace
+
+BodySizes encode_swath(const PixelFrame& frame, const Region& region, Buffer& body) {
+    struct Place {
+        int x, y, length;
+    };
+    std::vector<Place> places;
+    std::vector<std::uint8_t> spans;
+    BodySizes sizes;
+    sizes.pixels = scan_spans(frame, region, spans, [&](int x, int y, int length) {
+        places.push_back({x, y, length});
+    });
+
+    body.resize(std::size_t{8} * sizes.pixels);
+    std::uint8_t* colour = body.data();
+    std::uint8_t* depth = body.data() + std::size_t{4} * sizes.pixels;
+    std::vector<std::uint8_t> ids;
+    std::uint32_t run = 0;
+    ObjectId current = 0;
+    ObjectId previous = 0;
+    const auto end_run = [&] {
+        if (run == 0) return;
+        const std::int64_t step = std::int64_t{current} - std::int64_t{previous};
+        put_varint(ids, run);
+        put_varint(ids, static_cast<std::uint32_t>((step << 1) ^ (step >> 63)));
+        previous = current;
+        run = 0;
+    };
+    for (const Place& place : places) {
+        const std::size_t bytes = std::size_t{4} * static_cast<std::size_t>(place.length);
+        std::memcpy(colour, frame.colour(place.x, place.y), bytes);
+        std::memcpy(depth, frame.depth(place.x, place.y), bytes);
+        colour += bytes;
+        depth += bytes;
+        const ObjectId* id = frame.id(place.x, place.y);
+        for (int i = 0; i < place.length; ++i) {
+            if (id[i] != current || run == 0) {
+                end_run();
+                current = id[i];
+            }
+            ++run;
+        }
+    }
+    end_run();
+    sizes.span_bytes = static_cast<std::uint32_t>(spans.size());
+    sizes.id_bytes = static_cast<std::uint32_t>(ids.size());
+    body.append(spans.data(), spans.size());
+    body.append(ids.data(), ids.size());
+    return sizes;
+}
+
+BodySizes encode_tile(const PixelFrame& frame, const Region& region, Buffer& body) {
+    std::vector<std::uint8_t> spans;
+    // Room for every pixel plus the one byte that the last four-byte store writes beyond its three.
+    body.resize(3 * static_cast<std::size_t>(area(region)) + 1);
+    std::uint8_t* out = body.data();
+    BodySizes sizes;
+    sizes.pixels = scan_spans(frame, region, spans, [&](int x, int y, int length) {
+        const std::uint32_t* colour = frame.colour(x, y);
+        for (int i = 0; i < length; ++i, out += 3) std::memcpy(out, colour + i, 4);
+    });
+    sizes.span_bytes = static_cast<std::uint32_t>(spans.size());
+    body.resize(std::size_t{3} * sizes.pixels);
+    body.append(spans.data(), spans.size());
+    return sizes;
+}
+
+void composite_pixels(std::size_t n, const std::uint32_t* __restrict colour_in,
+                      const float* __restrict depth_in, const ObjectId* __restrict id_in,
+                      std::uint32_t* __restrict colour, float* __restrict depth, ObjectId* __restrict id) {
+    // Depths are not negative, so their bits order as they do; ids are below 2^31. Signed integer comparisons
+    // and selects without branches: the compiler makes vectors of them.
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto theirs = std::bit_cast<std::int32_t>(depth_in[i]);
+        const auto ours = std::bit_cast<std::int32_t>(depth[i]);
+        const auto their_id = static_cast<std::int32_t>(id_in[i]);
+        const auto our_id = static_cast<std::int32_t>(id[i]);
+        const bool nearer = (theirs < ours) | ((theirs == ours) & (their_id < our_id));
+        colour[i] = nearer ? colour_in[i] : colour[i];
+        depth[i] = std::bit_cast<float>(nearer ? theirs : ours);
+        id[i] = static_cast<ObjectId>(nearer ? their_id : our_id);
+    }
+}
+
+Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
+                       ObjectId object_limit, PixelFrame& frame) {
+    if (const auto status = check_sizes(body, sizes, 8, region); !status) return status;
+    const std::size_t plane = std::size_t{4} * sizes.pixels;
+    // The planes are used where they lie: a Buffer starts aligned for them.
+    CHECK(reinterpret_cast<std::uintptr_t>(body.data()) % alignof(float) == 0u);
+    const auto* const colour = reinterpret_cast<const std::uint32_t*>(body.data());
+    const auto* const depth = reinterpret_cast<const float*>(body.data() + plane);
+    std::uint32_t highest = 0;
+    for (std::size_t i = 0; i < sizes.pixels; ++i)
+        highest = std::max(highest, std::bit_cast<std::uint32_t>(depth[i]));
+    if (highest >= kFarBits) return fail("depths: a value outside [0, 1)");
+    std::vector<ObjectId> ids;
+    if (const auto status =
+            decode_ids(body.subspan(2 * plane + sizes.span_bytes), sizes.pixels, object_limit, ids);
+        !status)
+        return status;
+    return walk_spans(body.subspan(2 * plane, sizes.span_bytes), region, sizes.pixels,
+                      [&](int x, int y, int length, std::uint32_t at) {
+                          composite_pixels(static_cast<std::size_t>(length), colour + at, depth + at, &ids[at], frame.colour(x, y), frame.depth(x, y), frame.id(x, y));
+                      });
+}
+
+Status assemble_tile(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
+                     Picture& picture) {
+    if (sizes.id_bytes != 0) return fail("a tile with object ids");
+    if (const auto status = check_sizes(body, sizes, 3, region); !status) return status;
+    return walk_spans(body.subspan(std::size_t{3} * sizes.pixels), region, sizes.pixels,
+                      [&](int x, int y, int length, std::uint32_t at) {
+                          const std::size_t to =
+                              3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                                   static_cast<std::size_t>(x));
+                          std::memcpy(picture.rgb.data() + to, body.data() + std::size_t{3} * at,
+                                      3 * static_cast<std::size_t>(length));
+                      });
+}
+
+void fill(Picture& picture, int width, int height, const Rgb& background) {
+    picture.width = width;
+    picture.height = height;
+    const std::size_t row = 3 * static_cast<std::size_t>(width);
+    picture.rgb.resize(row * static_cast<std::size_t>(height));
+    for (std::size_t x = 0; x < row && height > 0; ++x) picture.rgb[x] = background[x % 3];
+    for (int y = 1; y < height; ++y)
+        std::memcpy(picture.rgb.data() + row * static_cast<std::size_t>(y), picture.rgb.data(), row);
+}
+
+Picture to_picture(const PixelFrame& frame, const Rgb& background) {
+    const Rect& rect = frame.rect();
+    Picture picture;
+    fill(picture, rect.width(), rect.height(), background);
+    std::uint8_t* out = picture.rgb.data();
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        const std::uint32_t* colour = frame.colour(rect.x0, y);
+        const float* depth = frame.depth(rect.x0, y);
+        for (int x = 0; x < rect.width(); ++x, out += 3)
+            if (active(depth[x])) std::memcpy(out, colour + x, 3);
+    }
+    return picture;
+}
+
+}  // namespace swath

@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "common/base/buffer.h"
+#include "common/base/ids.h"
+#include "common/base/result.h"
+#include "common/geometry/rect.h"
+#include "common/image/picture.h"
+#include "common/image/pixel_frame.h"
+
+namespace swath {
+
+// How pixels travel: only active ones (depth below 1), as spans. Both bodies are little-endian; docs/wire.md
+// has a worked example.
+//
+//   swath (server to server): colour, u32 a pixel | depth, f32 a pixel | spans | ids
+//   tile (server to display): R, G, B, a byte each a pixel | spans
+//
+//   spans: for each row of each rectangle of the region, bottom-up: u16 count, then count times (u16 first
+//   pixel,
+//          counted from the rectangle's left edge; u16 length > 0), ascending, with gaps
+//   ids:   runs over the pixels in span order: varint length > 0, varint zigzag(id - previous run's id), from
+//   id 0
+//
+// The region itself does not travel: both ends know it from the plan.
+struct BodySizes {
+    std::uint32_t pixels = 0;
+    std::uint32_t span_bytes = 0;
+    std::uint32_t id_bytes = 0;  // 0 for a tile
+    bool operator==(const BodySizes&) const = default;
+};
+
+// Fills `body` with the active pixels of `region`, which must lie in frame.rect().
+BodySizes encode_swath(const PixelFrame& frame, const Region& region, Buffer& body);
+BodySizes encode_tile(const PixelFrame& frame, const Region& region, Buffer& body);
+
+// Merges a peer's pixels into `frame`: the smaller depth wins, of equal depths the smaller id
+// (docs/design.md, "Exactness"). Nothing in `body` is trusted: sizes, spans, ids below `object_limit` and
+// depths in [0, 1) are checked, and an error says which was wrong; some pixels may have been merged by then.
+// `body` must start at a multiple of 4.
+Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
+                       ObjectId object_limit, PixelFrame& frame);
+
+// Writes a server's pixels into the picture. Checked like composite_swath.
+Status assemble_tile(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
+                     Picture& picture);
+
+// The inner loop of composite_swath, for benchmarks: n pixels of each plane.
+void composite_pixels(std::size_t n, const std::uint32_t* colour_in, const float* depth_in,
+                      const ObjectId* id_in, std::uint32_t* colour, float* depth, ObjectId* id);
+
+// Fills a picture of the size with one colour.
+void fill(Picture& picture, int width, int height, const Rgb& background);
+
+// A frame that one renderer has drawn whole, as a picture.
+Picture to_picture(const PixelFrame& frame, const Rgb& background);
+
+}  // namespace swath

@@ -1,0 +1,204 @@
+#include "common/render/gl_renderer.h"
+
+#include <array>
+#include <cstddef>
+
+#include "common/base/check.h"
+
+namespace swath {
+namespace {
+
+// Lambert with a head-light, per vertex. Both sides are lit: models from the world are not consistently
+// wound.
+constexpr const char* kVertexShader = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 colour;
+uniform mat4 clip_from_model;
+uniform vec3 to_light;
+out vec3 shaded;
+void main() {
+    gl_Position = clip_from_model * vec4(position, 1.0);
+    shaded = colour.rgb * (0.2 + 0.8 * abs(dot(normal, to_light)));
+}
+)";
+
+constexpr const char* kFragmentShader = R"(#version 330 core
+in vec3 shaded;
+uniform uint object;
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint id;
+void main() {
+    colour = vec4(shaded, 1.0);
+    id = object;
+}
+)";
+
+}  // namespace
+
+GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const ObjectSet& scene, const GlFunctions& gl)
+    : context_(std::move(context)), scene_(scene), gl_(gl) {}
+
+Result<std::unique_ptr<Renderer>> GlRenderer::make(std::unique_ptr<GlContext> context,
+                                                   const ObjectSet& scene) {
+    const auto gl = load_gl_functions(*context);
+    if (!gl) return tl::unexpected(gl.error());
+    std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::move(context), scene, *gl));
+    if (const auto status = renderer->make_program(); !status) return tl::unexpected(status.error());
+    if (const auto status = renderer->upload(); !status) return tl::unexpected(status.error());
+    return renderer;
+}
+
+Status GlRenderer::check(const char* what) const {
+    const GLenum error = gl_.GetError();
+    if (error == GL_NO_ERROR) return {};
+    if (error == GL_OUT_OF_MEMORY) return fail("OpenGL: out of memory while {}", what);
+    return fail("OpenGL: error {:#x} while {}", error, what);
+}
+
+Status GlRenderer::make_program() {
+    const GLuint program = gl_.CreateProgram();
+    for (const auto& [kind, source] :
+         {std::pair(GL_VERTEX_SHADER, kVertexShader), std::pair(GL_FRAGMENT_SHADER, kFragmentShader)}) {
+        const GLuint shader = gl_.CreateShader(static_cast<GLenum>(kind));
+        gl_.ShaderSource(shader, 1, &source, nullptr);
+        gl_.CompileShader(shader);
+        GLint ok = GL_FALSE;
+        gl_.GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+        if (ok != GL_TRUE) {
+            std::array<char, 1024> log{};
+            gl_.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+            return fail("OpenGL: a shader does not compile: {}", log.data());
+        }
+        gl_.AttachShader(program, shader);
+        gl_.DeleteShader(shader);
+    }
+    gl_.LinkProgram(program);
+    GLint ok = GL_FALSE;
+    gl_.GetProgramiv(program, GL_LINK_STATUS, &ok);
+    if (ok != GL_TRUE) {
+        std::array<char, 1024> log{};
+        gl_.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
+        return fail("OpenGL: the shaders do not link: {}", log.data());
+    }
+    gl_.UseProgram(program);
+    clip_from_model_ = gl_.GetUniformLocation(program, "clip_from_model");
+    to_light_ = gl_.GetUniformLocation(program, "to_light");
+    object_ = gl_.GetUniformLocation(program, "object");
+    return {};
+}
+
+Status GlRenderer::upload() {
+    GLuint array = 0;
+    gl_.GenVertexArrays(1, &array);
+    gl_.BindVertexArray(array);
+    std::array<GLuint, 2> buffers{};
+    gl_.GenBuffers(2, buffers.data());
+    const Mesh& mesh = scene_.mesh;
+    gl_.BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(Vertex)),
+                   mesh.vertices.data(), GL_STATIC_DRAW);
+    gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
+    gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                   static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)), mesh.indices.data(),
+                   GL_STATIC_DRAW);
+    const auto attribute = [&](GLuint at, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
+        gl_.EnableVertexAttribArray(at);
+        gl_.VertexAttribPointer(at, size, type, normalised, sizeof(Vertex),
+                                reinterpret_cast<const void*>(offset));
+    };
+    attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
+    attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(Vertex, normal));
+    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, colour));
+
+    GLuint framebuffer = 0;
+    gl_.GenFramebuffers(1, &framebuffer);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    std::array<GLuint, 3> targets{};
+    gl_.GenRenderbuffers(3, targets.data());
+    colour_buffer_ = targets[0];
+    id_buffer_ = targets[1];
+    depth_buffer_ = targets[2];
+    gl_.Enable(GL_DEPTH_TEST);
+    gl_.DepthFunc(GL_LESS);
+    gl_.Enable(GL_SCISSOR_TEST);
+    gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    return check("uploading the model");
+}
+
+Status GlRenderer::resize(int width, int height) {
+    GLint limit = 0;
+    gl_.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &limit);
+    if (width < 1 || height < 1 || width > limit || height > limit)
+        return fail("picture size {}x{}: this renderer's limits are 1x1 to {}x{}", width, height, limit,
+                    limit);
+    const auto storage = [&](GLuint buffer, GLenum format, GLenum attachment) {
+        gl_.BindRenderbuffer(GL_RENDERBUFFER, buffer);
+        gl_.RenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+        gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
+    };
+    storage(colour_buffer_, GL_RGBA8, GL_COLOR_ATTACHMENT0);
+    storage(id_buffer_, GL_R32UI, GL_COLOR_ATTACHMENT1);
+    storage(depth_buffer_, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
+    const std::array<GLenum, 2> targets{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    gl_.DrawBuffers(2, targets.data());
+    if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return fail("OpenGL: no framebuffer of {}x{} with RGBA8, R32UI and 32-bit float depth", width,
+                    height);
+    gl_.Viewport(0, 0, width, height);
+    width_ = width;
+    height_ = height;
+    return check("making the framebuffer");
+}
+
+Status GlRenderer::draw(std::span<const ObjectId> objects, const View& view, const Rect& rect) {
+    if (view.width != width_ || view.height != height_) {
+        if (const auto status = resize(view.width, view.height); !status) return status;
+    }
+    CHECK(view.viewport().contains(rect) == true);
+    gl_.Scissor(rect.x0, rect.y0, rect.width(), rect.height());
+    // Only depth is cleared: a pixel that nothing touches keeps depth 1 and nobody looks at its colour or id.
+    const float far = kFarDepth;
+    gl_.ClearBufferfv(GL_DEPTH, 0, &far);
+    gl_.UniformMatrix4fv(clip_from_model_, 1, GL_FALSE, &view.clip_from_model[0][0]);
+    gl_.Uniform3f(to_light_, view.to_light.x, view.to_light.y, view.to_light.z);
+    for (const ObjectId id : objects) {
+        CHECK(id < scene_.objects.size());
+        const Object& object = scene_.objects[id];
+        gl_.Uniform1ui(object_, id);
+        gl_.DrawElements(
+            GL_TRIANGLES, static_cast<GLsizei>(3 * object.triangle_count), GL_UNSIGNED_INT,
+            reinterpret_cast<const void*>(std::size_t{3} * sizeof(std::uint32_t) * object.first_triangle));
+    }
+    gl_.Finish();
+    return check("drawing");
+}
+
+Status GlRenderer::read(const Rect& rect, PixelFrame& frame) {
+    if (rect.empty()) return {};
+    CHECK(frame.rect().contains(rect) == true);
+    CHECK((Rect{0, 0, width_, height_}.contains(rect)) == true);
+    gl_.PixelStorei(GL_PACK_ROW_LENGTH, frame.rect().width());
+    const auto pixels = [&](GLenum format, GLenum type, void* to) {
+        gl_.ReadPixels(rect.x0, rect.y0, rect.width(), rect.height(), format, type, to);
+    };
+    pixels(GL_DEPTH_COMPONENT, GL_FLOAT, frame.depth(rect.x0, rect.y0));
+    gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
+    pixels(GL_RGBA, GL_UNSIGNED_BYTE, frame.colour(rect.x0, rect.y0));
+    gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
+    pixels(GL_RED_INTEGER, GL_UNSIGNED_INT, frame.id(rect.x0, rect.y0));
+    return check("reading pixels");
+}
+
+std::string GlRenderer::description() const {
+    const auto text = [&](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
+    return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
+}
+
+Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, const ObjectSet& scene) {
+    auto context = kind == RendererKind::kEgl ? make_egl_context() : make_osmesa_context();
+    if (!context) return tl::unexpected(context.error());
+    return GlRenderer::make(std::move(*context), scene);
+}
+
+}  // namespace swath

@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "common/render/gl_context.h"
+#include "common/render/gl_functions.h"
+#include "common/render/renderer.h"
+
+namespace swath {
+
+// The rasteriser behind OSMesa and EGL: one framebuffer object with RGBA8 colour, R32UI object id and D32F
+// depth, one draw call an object. Bits are kept equal across servers by drawing with the full viewport and
+// limiting with the scissor, by GL_LESS and by ascending ids (docs/design.md, "Exactness").
+class GlRenderer final : public Renderer {
+  public:
+    static Result<std::unique_ptr<Renderer>> make(std::unique_ptr<GlContext> context, const ObjectSet& scene);
+
+    Status draw(std::span<const ObjectId> objects, const View& view, const Rect& rect) override;
+    Status read(const Rect& rect, PixelFrame& frame) override;
+    std::string description() const override;
+
+  private:
+    GlRenderer(std::unique_ptr<GlContext> context, const ObjectSet& scene, const GlFunctions& gl);
+    Status make_program();
+    Status upload();
+    Status resize(int width, int height);
+    Status check(const char* what) const;
+
+    std::unique_ptr<GlContext> context_;  // its objects die with it
+    const ObjectSet& scene_;
+    GlFunctions gl_;
+    int width_ = 0;
+    int height_ = 0;
+    GLuint colour_buffer_ = 0;
+    GLuint id_buffer_ = 0;
+    GLuint depth_buffer_ = 0;
+    GLint clip_from_model_ = -1;
+    GLint to_light_ = -1;
+    GLint object_ = -1;
+};
+
+}  // namespace swath

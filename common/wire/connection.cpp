@@ -1,0 +1,228 @@
+#include "common/wire/connection.h"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+
+#include "common/wire/address.h"
+
+namespace swath {
+namespace asio = boost::asio;
+namespace {
+
+// Asio's own completion conditions move at most 64 KiB a system call.
+constexpr std::size_t kTransferBytes = std::size_t{1} << 30;
+
+std::string describe(const asio::ip::tcp::socket& socket) {
+    boost::system::error_code error;
+    const auto end = socket.remote_endpoint(error);
+    if (error) return "a peer that has gone";
+    return to_string(Address{end.address().to_string(), end.port()});
+}
+
+double seconds(Nanoseconds t) { return std::chrono::duration<double>(t).count(); }
+
+}  // namespace
+
+Connection::Connection(asio::ip::tcp::socket socket, Options options, const Clock& clock)
+    : socket_(std::move(socket)),
+      options_(options),
+      clock_(clock),
+      peer_(describe(socket_)),
+      watchdog_(socket_.get_executor()) {
+    options_.hello.max_head_bytes = options_.limits.max_head_bytes;
+    options_.hello.max_body_bytes = options_.limits.max_body_bytes;
+}
+
+void Connection::start(Handlers handlers) {
+    handlers_ = std::move(handlers);
+    boost::system::error_code ignored;
+    socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
+    last_received_ = last_sent_ = clock_.now();
+    if (!offer(options_.hello) || !offer(Ping{clock_.now()})) return;
+    read_prefix();
+    watch();
+}
+
+bool Connection::offer(const Message& message, Buffer body) {
+    if (!open_ || closing_) return true;  // the close is already on its way to the caller
+    const std::string head = encode_head(message);
+    if (queued_bytes_ + head.size() + body.size() > options_.max_queued_bytes) return false;
+    const auto prefix =
+        encode_prefix({static_cast<std::uint32_t>(head.size()), static_cast<std::uint32_t>(body.size())});
+    Outgoing out;
+    out.head.reserve(prefix.size() + head.size());
+    out.head.append(reinterpret_cast<const char*>(prefix.data()), prefix.size());
+    out.head.append(head);
+    out.body = std::move(body);
+    queued_bytes_ += out.head.size() + out.body.size();
+    queue_.push_back(std::move(out));
+    if (writing_.empty()) write_queued();
+    return true;
+}
+
+void Connection::write_queued() {
+    writing_.assign(std::make_move_iterator(queue_.begin()), std::make_move_iterator(queue_.end()));
+    queue_.clear();
+    std::vector<asio::const_buffer> buffers;
+    buffers.reserve(2 * writing_.size());
+    for (const Outgoing& out : writing_) {
+        buffers.emplace_back(out.head.data(), out.head.size());
+        if (!out.body.empty()) buffers.emplace_back(out.body.data(), out.body.size());
+    }
+    last_sent_ = clock_.now();
+    const auto all = [](const boost::system::error_code& error, std::size_t) {
+        return error ? 0 : kTransferBytes;
+    };
+    asio::async_write(socket_, buffers, all,
+                      [self = shared_from_this()](const boost::system::error_code& error, std::size_t) {
+                          if (!self->open_) return;
+                          for (const Outgoing& out : self->writing_)
+                              self->queued_bytes_ -= out.head.size() + out.body.size();
+                          self->writing_.clear();
+                          if (error) {
+                              self->end(fail("{}", error.message()));
+                          } else if (!self->queue_.empty()) {
+                              self->write_queued();
+                          } else if (self->closing_) {
+                              self->end(self->close_reason_);
+                          }
+                      });
+}
+
+void Connection::read_prefix() {
+    asio::async_read(socket_, asio::buffer(prefix_),
+                     [self = shared_from_this()](const boost::system::error_code& error, std::size_t got) {
+                         if (!self->open_ || self->closing_) return;
+                         if (error == asio::error::eof) {
+                             self->end(fail("{}", got == 0 ? "closed the connection"
+                                                           : "closed the connection within a message"));
+                             return;
+                         }
+                         if (error) return self->end(fail("{}", error.message()));
+                         self->last_received_ = self->clock_.now();
+                         const auto prefix = decode_prefix(
+                             self->prefix_, self->introduced_ ? self->options_.limits : kHelloLimits);
+                         if (!prefix) return self->fail_with(prefix.error());
+                         self->read_rest(*prefix);
+                     });
+}
+
+void Connection::read_rest(const Prefix& prefix) {
+    head_.resize(prefix.head_bytes);
+    body_ = Buffer(prefix.body_bytes);
+    const std::array<asio::mutable_buffer, 2> buffers{asio::buffer(head_),
+                                                      asio::buffer(body_.data(), body_.size())};
+    // The condition sees every piece that arrives: a large body on a slow link is not silence.
+    const auto all = [self = shared_from_this(), before = std::size_t{0}](
+                         const boost::system::error_code& error, std::size_t got) mutable {
+        if (got > before) self->last_received_ = self->clock_.now();
+        before = got;
+        return error ? 0 : kTransferBytes;
+    };
+    asio::async_read(socket_, buffers, all,
+                     [self = shared_from_this()](const boost::system::error_code& error, std::size_t) {
+                         if (!self->open_ || self->closing_) return;
+                         if (error == asio::error::eof)
+                             return self->end(fail("closed the connection within a message"));
+                         if (error) return self->end(fail("{}", error.message()));
+                         self->on_received();
+                     });
+}
+
+void Connection::on_received() {
+    auto message = decode_head(head_);
+    if (!message) return fail_with(message.error());
+    const auto status = dispatch(std::move(*message));
+    if (!status) return fail_with(status.error());
+    if (open_ && !closing_) read_prefix();
+}
+
+Status Connection::dispatch(Message&& message) {
+    if (!introduced_) {
+        const auto* hello = std::get_if<Hello>(&message);
+        if (hello == nullptr) return fail("sent {} before Hello", name(message));
+        introduced_ = true;
+        return handlers_.on_hello(*hello);
+    }
+    if (std::holds_alternative<Hello>(message)) return fail("sent Hello twice");
+    if (const auto* ping = std::get_if<Ping>(&message)) {
+        if (!offer(Pong{ping->sent, clock_.now()})) return fail("does not read: its send queue is full");
+        return {};
+    }
+    if (const auto* pong = std::get_if<Pong>(&message)) {
+        const Nanoseconds now = clock_.now();
+        const Nanoseconds round_trip = now - pong->sent;
+        if (round_trip >= Nanoseconds(0) && round_trip < best_round_trip_) {
+            best_round_trip_ = round_trip;
+            clock_offset_ = pong->sent + round_trip / 2 - pong->peer;
+        }
+        return {};
+    }
+    if (const auto* failed = std::get_if<Failed>(&message)) {
+        end(fail("{}", failed->what));
+        return {};
+    }
+    if (std::holds_alternative<Bye>(message)) {
+        end({});
+        return {};
+    }
+    return handlers_.on_message(std::move(message), std::move(body_));
+}
+
+void Connection::watch() {
+    watchdog_.expires_after(options_.timing.heartbeat / 2);
+    watchdog_.async_wait([self = shared_from_this()](const boost::system::error_code& error) {
+        if (error || !self->open_) return;
+        const Nanoseconds now = self->clock_.now();
+        if (now - self->last_received_ > self->options_.timing.silence_limit) {
+            self->end(self->closing_ ? self->close_reason_
+                                     : fail("silent for {:.1f} s", seconds(now - self->last_received_)));
+            return;
+        }
+        if (now - self->last_sent_ >= self->options_.timing.heartbeat && !self->offer(Ping{now})) {
+            self->end(fail("does not read: its send queue is full"));
+            return;
+        }
+        self->watch();
+    });
+}
+
+void Connection::fail_with(const Error& error) {
+    if (!open_ || closing_) return;
+    close_reason_ = tl::unexpected(error);
+    if (!offer(Failed{error.message})) return end(close_reason_);
+    closing_ = true;
+}
+
+void Connection::finish() {
+    if (!open_ || closing_) return;
+    handlers_.on_closed = nullptr;
+    if (!offer(Bye{})) return close();
+    closing_ = true;
+}
+
+void Connection::close() {
+    handlers_.on_closed = nullptr;
+    shut();
+}
+
+void Connection::end(const Status& why) {
+    if (!open_) return;
+    auto on_closed = std::move(handlers_.on_closed);
+    shut();
+    if (on_closed) on_closed(why);
+}
+
+void Connection::shut() {
+    if (!open_) return;
+    open_ = false;
+    watchdog_.cancel();
+    boost::system::error_code ignored;
+    socket_.shutdown(asio::ip::tcp::socket::shutdown_both, ignored);
+    socket_.close(ignored);
+    // A callback may be running and own what it captures: let it go only when it has returned.
+    asio::post(socket_.get_executor(), [self = shared_from_this()] { self->handlers_ = {}; });
+}
+
+}  // namespace swath

@@ -1,0 +1,171 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "common/base/clock.h"
+#include "common/base/ids.h"
+#include "common/geometry/camera.h"
+#include "common/geometry/rect.h"
+#include "common/image/picture.h"
+#include "common/image/pixel_codec.h"
+#include "common/render/renderer_kind.h"
+#include "common/scene/model_blob.h"
+#include "common/timeline/timeline.h"
+
+namespace swath {
+
+// What the programs say to each other; the bytes are in docs/wire.md. All are values, checked when they are
+// decoded: a decoded message has no rectangle outside kMaxPictureSide, ids ascend, sizes match their region.
+
+inline constexpr int kMaxPictureSide = 16384;
+inline constexpr std::uint32_t kMaxServers = 1024;
+inline constexpr std::uint32_t kMaxFramesInFlight = 8;
+
+enum class Role : std::uint32_t { kClient = 1, kServer = 2, kDisplay = 3 };
+std::string_view name(Role role);
+
+// The first message of both ends of every connection.
+struct Hello {
+    Role role = Role::kClient;
+    std::uint64_t session = 0;  // 0 until a session exists
+    ServerId server{};          // of a server in a session
+    std::uint32_t max_head_bytes = 0;
+    std::uint32_t max_body_bytes = 0;
+    bool operator==(const Hello&) const = default;
+};
+
+// Sent by either end when it has been silent for a while; answered at once. The answers estimate the offset
+// of clocks.
+struct Ping {
+    Nanoseconds sent{0};
+    bool operator==(const Ping&) const = default;
+};
+struct Pong {
+    Nanoseconds sent{0};  // as in the Ping
+    Nanoseconds peer{0};  // the answerer's clock
+    bool operator==(const Pong&) const = default;
+};
+
+// Client to server: the session. The server loads the model (its own file, its cache, or NeedModel) and says
+// Ready.
+struct ServerSetup {
+    std::uint64_t session = 0;
+    ServerId server{};
+    std::string model;  // as the user named it
+    Digest digest{};    // of the model's blob
+    std::uint64_t blob_bytes = 0;
+    int octree_depth = 0;
+    RendererKind renderer = RendererKind::kOsmesa;
+    std::vector<std::string> servers;  // "host:port" by ServerId
+    std::string display;
+    std::uint32_t frames_in_flight = 2;
+    bool operator==(const ServerSetup&) const = default;
+};
+// Client to display; it answers Ready.
+struct DisplaySetup {
+    std::uint64_t session = 0;
+    std::uint32_t servers = 1;
+    PictureFormat format = PictureFormat::kNone;
+    std::uint32_t frames_in_flight = 2;
+    bool operator==(const DisplaySetup&) const = default;
+};
+// Server to client: send the model's blob from `offset`. Client to server: a part of it, as the body.
+struct NeedModel {
+    std::uint64_t offset = 0;
+    bool operator==(const NeedModel&) const = default;
+};
+struct ModelPart {
+    std::uint64_t offset = 0;
+    bool operator==(const ModelPart&) const = default;
+};
+inline constexpr std::uint32_t kModelPartBytes = 4u << 20;
+
+struct Ready {
+    std::uint64_t objects = 0;
+    std::uint64_t triangles = 0;
+    std::string description;  // of the renderer, for people
+    bool operator==(const Ready&) const = default;
+};
+// Client to server, when all are ready: connect to the display and to the servers with smaller ids. Connected
+// answers.
+struct Connect {
+    bool operator==(const Connect&) const = default;
+};
+struct Connected {
+    bool operator==(const Connected&) const = default;
+};
+
+// What goes to or comes from one server.
+struct Exchange {
+    ServerId server{};
+    Region region;
+    bool operator==(const Exchange&) const = default;
+};
+
+// Client to server: its share of a FramePlan.
+struct RenderFrame {
+    FrameNumber frame = 0;
+    View view;
+    std::vector<ObjectId> group;  // ascending
+    Rect content;
+    Region final_region;
+    std::vector<Exchange> outgoing;
+    std::vector<Exchange> incoming;
+    bool operator==(const RenderFrame&) const = default;
+};
+// Client to display: what a frame consists of.
+struct AssembleFrame {
+    FrameNumber frame = 0;
+    int width = 0;
+    int height = 0;
+    Rgb background{};
+    std::vector<Exchange> tiles;
+    bool operator==(const AssembleFrame&) const = default;
+};
+
+// Server to server and server to display: pixels of a frame, as the body (common/image/pixel_codec.h).
+struct SwathPixels {
+    FrameNumber frame = 0;
+    BodySizes sizes;
+    bool operator==(const SwathPixels&) const = default;
+};
+struct TilePixels {
+    FrameNumber frame = 0;
+    BodySizes sizes;
+    bool operator==(const TilePixels&) const = default;
+};
+
+// To the client: what a machine did for a frame, on its own clock. The display's says that the frame is
+// complete and carries the encoded picture, if one was asked for, as the body.
+struct Report {
+    FrameNumber frame = 0;
+    std::vector<Span> spans;
+    std::array<std::uint64_t, kCounterCount> counters{};
+    bool operator==(const Report&) const = default;
+};
+struct ServerReport : Report {
+    bool operator==(const ServerReport&) const = default;
+};
+struct DisplayReport : Report {
+    bool operator==(const DisplayReport&) const = default;
+};
+
+// The sender cannot go on and closes; one line for a person.
+struct Failed {
+    std::string what;
+    bool operator==(const Failed&) const = default;
+};
+// A clean end: the connection's silence from now on is no failure.
+struct Bye {
+    bool operator==(const Bye&) const = default;
+};
+
+using Message = std::variant<Hello, Ping, Pong, ServerSetup, DisplaySetup, NeedModel, ModelPart, Ready,
+                             Connect, Connected, RenderFrame, AssembleFrame, SwathPixels, TilePixels,
+                             ServerReport, DisplayReport, Failed, Bye>;
+std::string_view name(const Message& message);
+
+}  // namespace swath
