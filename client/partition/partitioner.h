@@ -11,7 +11,6 @@
 
 namespace swath {
 
-inline constexpr std::size_t kMaxServers = 1024;
 
 // What a frame's partition is decided from. Borrows the objects for the call.
 struct PartitionInput {

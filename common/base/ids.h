@@ -8,6 +8,7 @@ namespace swath {
 enum class ServerId : std::uint32_t {};
 constexpr std::size_t index(ServerId id) { return static_cast<std::size_t>(id); }
 constexpr ServerId server_id(std::size_t i) { return static_cast<ServerId>(i); }
+inline constexpr std::size_t kMaxServers = 1024;
 
 // An object's place in its ObjectSet. Ascending ids are the drawing order and break depth ties.
 using ObjectId = std::uint32_t;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "common/scene/objects.h"
 #include "swath.pb.h"
 
 namespace swath {
@@ -164,7 +165,7 @@ Result<ServerId> get_server(std::uint32_t id, const char* field) {
 
 Result<std::vector<Exchange>> get_exchanges(const google::protobuf::RepeatedPtrField<pb::Exchange>& in,
                                             const char* field) {
-    if (static_cast<std::uint32_t>(in.size()) > kMaxServers)
+    if (static_cast<std::size_t>(in.size()) > kMaxServers)
         return fail("{}: {} entries, the limit is {}", field, in.size(), kMaxServers);
     std::vector<Exchange> exchanges;
     for (const pb::Exchange& e : in) {
@@ -250,7 +251,7 @@ Result<Message> get_server_setup(const pb::ServerSetup& in) {
     m.octree_depth = static_cast<int>(in.octree_depth());
     if (in.renderer() < 1 || in.renderer() > 2) return fail("renderer: {} is none", in.renderer());
     m.renderer = static_cast<RendererKind>(in.renderer());
-    if (in.servers_size() < 1 || static_cast<std::uint32_t>(in.servers_size()) > kMaxServers)
+    if (in.servers_size() < 1 || static_cast<std::size_t>(in.servers_size()) > kMaxServers)
         return fail("servers: {}, the limits are 1 and {}", in.servers_size(), kMaxServers);
     for (const std::string& s : in.servers()) {
         if (const auto t = check_text(s, "servers"); !t) return tl::unexpected(t.error());

@@ -44,10 +44,10 @@ void Connection::start(Handlers handlers) {
     watch();
 }
 
-bool Connection::offer(const Message& message, Buffer body) {
-    if (!open_ || closing_) return true;  // the close is already on its way to the caller
+std::optional<std::size_t> Connection::offer(const Message& message, Buffer body) {
+    if (!open_ || closing_) return 0;  // the close is already on its way to the caller
     const std::string head = encode_head(message);
-    if (queued_bytes_ + head.size() + body.size() > options_.max_queued_bytes) return false;
+    if (queued_bytes_ + head.size() + body.size() > options_.max_queued_bytes) return std::nullopt;
     const auto prefix =
         encode_prefix({static_cast<std::uint32_t>(head.size()), static_cast<std::uint32_t>(body.size())});
     Outgoing out;
@@ -56,9 +56,10 @@ bool Connection::offer(const Message& message, Buffer body) {
     out.head.append(head);
     out.body = std::move(body);
     queued_bytes_ += out.head.size() + out.body.size();
+    const std::size_t head_bytes = out.head.size();
     queue_.push_back(std::move(out));
     if (writing_.empty()) write_queued();
-    return true;
+    return head_bytes;
 }
 
 void Connection::write_queued() {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
     void start(Handlers handlers);
 
-    // Queues a message; false when the peer takes too little and the queue is full: the caller gives the peer
-    // up.
-    [[nodiscard]] bool offer(const Message& message, Buffer body = {});
+    // Queues a message. The value is the bytes of its prefix and head, so that a caller can count what it sends; none
+    // when the peer takes too little and the queue is full: the caller gives the peer up.
+    [[nodiscard]] std::optional<std::size_t> offer(const Message& message, Buffer body = {});
 
     // Tells the peer why (Failed), then closes; on_closed follows with the error.
     void fail_with(const Error& error);
@@ -63,10 +64,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
     // its round trip); zero before the first.
     Nanoseconds clock_offset() const { return clock_offset_; }
     bool has_clock_offset() const { return best_round_trip_ != Nanoseconds::max(); }
-    // Bytes that a message takes on the wire.
-    static std::size_t wire_bytes(std::size_t head_bytes, std::size_t body_bytes) {
-        return kPrefixBytes + head_bytes + body_bytes;
-    }
 
   private:
     struct Outgoing {

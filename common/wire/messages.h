@@ -20,8 +20,6 @@ namespace swath {
 // What the programs say to each other; the bytes are in docs/wire.md. All are values, checked when they are
 // decoded: a decoded message has no rectangle outside kMaxPictureSide, ids ascend, sizes match their region.
 
-inline constexpr int kMaxPictureSide = 16384;
-inline constexpr std::uint32_t kMaxServers = 1024;
 inline constexpr std::uint32_t kMaxFramesInFlight = 8;
 
 enum class Role : std::uint32_t { kClient = 1, kServer = 2, kDisplay = 3 };
@@ -144,6 +142,7 @@ struct Report {
     FrameNumber frame = 0;
     std::vector<Span> spans;
     std::array<std::uint64_t, kCounterCount> counters{};
+    std::uint64_t& operator[](Counter c) { return counters[static_cast<std::size_t>(c)]; }
     bool operator==(const Report&) const = default;
 };
 struct ServerReport : Report {

@@ -1,0 +1,96 @@
+#include "common/program/program.h"
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <unistd.h>
+
+namespace swath {
+namespace asio = boost::asio;
+
+void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& timing) {
+    app.add_flag("--quiet", options.quiet, "log warnings and errors only");
+    app.add_flag("--lifeline", options.lifeline, "end when stdin closes (for programs that start this one)");
+    app.add_option_function<int>(
+           "--silence-ms",
+           [&timing](int ms) {
+               timing.silence_limit = std::chrono::milliseconds(ms);
+               timing.heartbeat = timing.silence_limit / 6;
+           },
+           "a peer that is silent this long is taken for dead [1800]")
+        ->check(CLI::Range(100, 600'000));
+}
+
+std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        std::cout << app.help();
+        return kExitDone;
+    } catch (const CLI::ParseError& error) {
+        return usage_error({error.what()});
+    }
+    return std::nullopt;
+}
+
+int usage_error(const Error& error) {
+    std::cerr << "error: " << error.message << " (see --help)\n";
+    return kExitUsage;
+}
+
+int run_error(const Error& error) {
+    std::cerr << "error: " << error.message << '\n';
+    return kExitFailed;
+}
+
+void start_log(const std::string& program, const ProgramOptions& options) {
+    auto logger = std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    logger->set_pattern("%H:%M:%S.%e %n %l: %v");
+    logger->set_level(options.quiet ? spdlog::level::warn : spdlog::level::info);
+    spdlog::set_default_logger(std::move(logger));
+}
+
+void announce(const Address& address) {
+    std::cout << "listening " << to_string(address) << std::endl;
+    spdlog::info("listening on {}", to_string(address));
+}
+
+int run_until_stopped(asio::io_context& io, const ProgramOptions& options) {
+    asio::signal_set signals(io, SIGINT, SIGTERM);
+    // Work in progress (a frame, a model being read) is dropped rather than waited for.
+    const auto leave = [](int code) {
+        spdlog::shutdown();
+        std::_Exit(code);
+    };
+    signals.async_wait([&](const boost::system::error_code& error, int) {
+        if (!error) leave(kExitDone);
+    });
+    asio::posix::stream_descriptor lifeline(io);
+    std::array<char, 64> ignored{};
+    std::function<void()> watch = [&] {
+        lifeline.async_read_some(asio::buffer(ignored), [&](const boost::system::error_code& error, std::size_t) {
+            if (error == asio::error::operation_aborted) return;
+            if (error) leave(kExitDone);
+            watch();
+        });
+    };
+    if (options.lifeline) {
+        lifeline.assign(::dup(STDIN_FILENO));
+        watch();
+    }
+    io.run();
+    return kExitDone;
+}
+
+std::string default_cache_folder() {
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0') return std::string(cache) + "/swath";
+    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') return std::string(home) + "/.cache/swath";
+    return "/tmp/swath-cache";
+}
+
+}  // namespace swath

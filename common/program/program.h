@@ -1,0 +1,40 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <boost/asio/io_context.hpp>
+#include <optional>
+#include <string>
+
+#include "common/base/result.h"
+#include "common/wire/address.h"
+#include "common/wire/connection.h"
+
+namespace swath {
+
+// What the mains of the networked programs have in common.
+
+enum ExitCode { kExitDone = 0, kExitFailed = 1, kExitUsage = 2 };
+
+struct ProgramOptions {
+    bool quiet = false;
+    bool lifeline = false;
+};
+void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& timing);
+
+// Parses; the exit code if the program is to end now (help, or a wrong flag: one line on stderr and kExitUsage).
+std::optional<int> parse_options(CLI::App& app, int argc, char** argv);
+int usage_error(const Error& error);  // prints the line, gives kExitUsage
+int run_error(const Error& error);    // prints the line, gives kExitFailed
+
+// Log lines go to stderr, prefixed by the program.
+void start_log(const std::string& program, const ProgramOptions& options);
+
+// Prints "listening HOST:PORT" to stdout, for whoever started the program with port 0.
+void announce(const Address& address);
+
+// Runs `io` until SIGINT or SIGTERM, or, with a lifeline, until stdin closes: the program that started us has gone.
+int run_until_stopped(boost::asio::io_context& io, const ProgramOptions& options);
+
+// $XDG_CACHE_HOME/swath, else ~/.cache/swath.
+std::string default_cache_folder();
+
+}  // namespace swath

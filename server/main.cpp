@@ -1,0 +1,47 @@
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/io_context.hpp>
+#include <cstdio>
+#include <cstdlib>
+
+#include "common/base/allocator.h"
+#include "common/program/program.h"
+#include "server/session/server.h"
+
+int main(int argc, char** argv) {
+    using namespace swath;
+    ServerOptions options;
+    std::string listen = "127.0.0.1:4000";
+    std::string cache = default_cache_folder();
+    int threads = -1;
+    ProgramOptions program;
+
+    CLI::App app{"swath-server: a render server of Swath. It waits for a swath-client, loads the model that the client names\n"
+                 "(from this machine, its cache, or the client), draws its share of every frame with a software OpenGL,\n"
+                 "swaps pixels with the other servers and sends its tile to the display. Then it waits for the next client.\n"};
+    app.add_option("--listen", listen, "HOST:PORT to listen on; port 0 takes a free one. There is no authentication: listen\n"
+                                       "beyond loopback only in a network you trust")->capture_default_str();
+    app.add_option("--cache", cache, "folder for models that clients send")->capture_default_str();
+    app.add_option("--max-model-mib", "largest model that a client may send, in MiB [8192]")
+        ->check(CLI::Range(1, 1 << 24))->each([&](const std::string& v) { options.max_model_bytes = std::stoull(v) << 20; });
+    app.add_option("--threads", threads, "threads that Mesa adds for rasterising; 0: the drawing thread alone [LP_NUM_THREADS, else one per core]")
+        ->check(CLI::Range(0, 256));
+    add_program_options(app, program, options.timing);
+    if (const auto code = parse_options(app, argc, argv)) return *code;
+    start_log("swath-server", program);
+
+    const auto address = parse_address(listen);
+    if (!address) return usage_error(address.error());
+    options.listen = *address;
+    options.cache = cache;
+    if (threads >= 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+    tune_allocator();
+
+    const SteadyClock clock;
+    boost::asio::io_context io(1);
+    const auto server = Server::make(io, options, clock, make_renderer);
+    if (!server) return run_error(server.error());
+    announce((*server)->address());
+    return run_until_stopped(io, program);
+}

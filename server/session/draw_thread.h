@@ -1,0 +1,64 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/base/clock.h"
+#include "common/base/result.h"
+#include "common/base/worker_thread.h"
+#include "common/image/pixel_frame.h"
+#include "common/render/renderer.h"
+#include "common/scene/objects.h"
+#include "common/timeline/timeline.h"
+
+namespace swath {
+
+// What drawing a frame needs and gives.
+struct DrawJob {
+    View view;
+    std::vector<ObjectId> group;
+    Rect content;
+    Region final_region;
+    PixelFrame pixels;  // in: a used one, for its memory; out: content and final region
+};
+struct Drawn {
+    PixelFrame pixels;
+    std::vector<Span> spans;  // cull, render, pixel read
+    std::uint64_t objects = 0;
+    std::uint64_t triangles = 0;
+    Status status;
+};
+struct Loaded {
+    std::size_t objects = 0;
+    std::size_t triangles = 0;
+    std::string renderer;
+};
+
+// How a server gets its renderer; benchmarks and tests bring their own.
+using RendererFactory = std::function<Result<std::unique_ptr<Renderer>>(RendererKind, const ObjectSet&)>;
+
+// The thread that owns the scene and its renderer: the GL context is bound to it. Results go to callbacks ON THAT THREAD,
+// which post them on. Destroying it waits for the job in progress.
+class DrawThread {
+  public:
+    DrawThread(RendererFactory factory, const Clock& clock) : factory_(std::move(factory)), clock_(clock) {}
+    ~DrawThread();
+
+    // Runs something slow that needs no scene, e.g. reading a model.
+    void run(std::function<void()> task) { thread_.post(std::move(task)); }
+    // Cuts the mesh into objects and makes the renderer.
+    void load(Mesh mesh, int octree_depth, RendererKind kind, std::function<void(Result<Loaded>)> done);
+    void draw(DrawJob job, std::function<void(Drawn)> done);
+
+  private:
+    Drawn draw_now(DrawJob job);
+
+    RendererFactory factory_;
+    const Clock& clock_;
+    ObjectSet scene_;                     // of thread_
+    std::unique_ptr<Renderer> renderer_;  // of thread_
+    WorkerThread thread_;                 // last: its tasks use the rest
+};
+
+}  // namespace swath

@@ -1,0 +1,369 @@
+#include "server/session/session.h"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/post.hpp>
+#include <utility>
+
+#include "common/base/check.h"
+#include "common/wire/listener.h"
+
+namespace swath {
+namespace asio = boost::asio;
+
+ServerSession::ServerSession(asio::io_context& io, const ServerOptions& options, const Clock& clock,
+                             RendererFactory factory, std::shared_ptr<Connection> client)
+    : io_(io),
+      options_(options),
+      clock_(clock),
+      client_(std::move(client)),
+      store_(options.cache),
+      draw_thread_(std::make_unique<DrawThread>(std::move(factory), clock)) {}
+
+void ServerSession::stop() {
+    client_->finish();
+    for (const auto& peer : peers_)
+        if (peer) peer->finish();
+    if (display_) display_->finish();
+    peers_.clear();
+    display_.reset();
+    draw_thread_.reset();
+}
+
+// The session cannot go on: the client is told why, and its connection's end ends the session.
+void ServerSession::give_up(const Error& error) {
+    if (draw_thread_) client_->fail_with(error);
+}
+
+bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
+    if (connection == client_) {
+        if (why)
+            spdlog::info("client {}: done", connection->peer());
+        else
+            spdlog::warn("client {}: {}; waiting for the next client", connection->peer(), why.error().message);
+        return true;
+    }
+    std::string who;
+    if (connection == display_) {
+        who = "the display";
+        display_.reset();
+    }
+    for (std::size_t i = 0; i < peers_.size(); ++i)
+        if (peers_[i] == connection) {
+            who = fmt::format("server {}", i);
+            peers_[i].reset();
+        }
+    // A Bye comes when the client has ended the run and a peer heard of it before we did.
+    if (!who.empty() && !why) {
+        const std::string line = fmt::format("lost {} ({}): {}", who, connection->peer(), why.error().message);
+        spdlog::warn("{}; ending the session", line);
+        give_up(Error{line});
+    }
+    return false;
+}
+
+Status ServerSession::on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) {
+    if (!draw_thread_) return {};
+    if (from == client_) return from_client(std::move(message), std::move(body));
+    for (std::size_t i = 0; i < peers_.size(); ++i)
+        if (peers_[i] == from) return from_peer(server_id(i), std::move(message), std::move(body));
+    return fail("{} is not expected from a display", name(message));
+}
+
+// --- setting up
+
+Status ServerSession::from_client(Message&& message, Buffer&& body) {
+    if (const auto* setup = std::get_if<ServerSetup>(&message)) return on_setup(*setup);
+    if (const auto* part = std::get_if<ModelPart>(&message)) return on_model_part(*part, body);
+    if (std::holds_alternative<Connect>(message)) return on_connect();
+    if (auto* task = std::get_if<RenderFrame>(&message)) return on_render_frame(std::move(*task));
+    return fail("{} is not expected from a client", name(message));
+}
+
+Status ServerSession::on_setup(const ServerSetup& setup) {
+    if (set_up_) return fail("ServerSetup came twice");
+    set_up_ = true;
+    setup_ = setup;
+    peers_.resize(setup.servers.size());
+    swap_ = std::make_unique<FrameSwap>(setup.frames_in_flight);
+    if (setup.blob_bytes > options_.max_model_bytes)
+        return fail("model {}: {} bytes, this server's limit is {}", setup.model, setup.blob_bytes, options_.max_model_bytes);
+    draw_thread_->run([self = shared_from_this()] {
+        auto mesh = std::make_shared<std::optional<Mesh>>(self->store_.find(self->setup_.model, self->setup_.digest));
+        asio::post(self->io_, [self, mesh] {
+            if (!self->draw_thread_) return;
+            if (*mesh) return self->load(std::move(**mesh));
+            spdlog::info("model {}: asking the client for it", self->setup_.model);
+            if (!self->client_->offer(NeedModel{0})) self->give_up({"the client does not read"});
+        });
+    });
+    return {};
+}
+
+Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
+    if (!set_up_ || ready_) return fail("ModelPart is not expected now");
+    if (part.offset != blob_.size()) return fail("ModelPart: offset {} where {} was asked for", part.offset, blob_.size());
+    if (body.empty() || body.size() > setup_.blob_bytes - blob_.size())
+        return fail("ModelPart: {} bytes where {} are missing", body.size(), setup_.blob_bytes - blob_.size());
+    blob_.append(body.data(), body.size());
+    if (blob_.size() < setup_.blob_bytes) {
+        if (!client_->offer(NeedModel{blob_.size()})) return fail("does not read");
+        return {};
+    }
+    draw_thread_->run([self = shared_from_this()] {
+        auto mesh = std::make_shared<Result<Mesh>>(self->store_.accept(self->blob_.bytes(), self->setup_.digest));
+        asio::post(self->io_, [self, mesh] {
+            if (!self->draw_thread_) return;
+            self->blob_ = Buffer();
+            if (!*mesh) return self->give_up(mesh->error());
+            self->load(std::move(**mesh));
+        });
+    });
+    return {};
+}
+
+void ServerSession::load(Mesh mesh) {
+    draw_thread_->load(std::move(mesh), setup_.octree_depth, setup_.renderer, [self = shared_from_this()](Result<Loaded> loaded) {
+        asio::post(self->io_, [self, loaded = std::move(loaded)] {
+            if (!self->draw_thread_) return;
+            if (!loaded) return self->give_up(loaded.error());
+            self->objects_ = loaded->objects;
+            self->ready_ = true;
+            spdlog::info("model {}: {} triangles in {} objects; {}", self->setup_.model, loaded->triangles, loaded->objects,
+                         loaded->renderer);
+            if (!self->client_->offer(Ready{loaded->objects, loaded->triangles, loaded->renderer}))
+                self->give_up({"the client does not read"});
+        });
+    });
+}
+
+// --- the mesh of connections: every server connects to the display and to the servers with smaller ids
+
+Status ServerSession::on_connect() {
+    if (!ready_ || connecting_) return fail("Connect is not expected now");
+    connecting_ = true;
+    connect(setup_.display, Role::kDisplay, {});
+    for (std::size_t i = 0; i < index(setup_.server); ++i) connect(setup_.servers[i], Role::kServer, server_id(i));
+    report_if_connected();
+    return {};
+}
+
+void ServerSession::connect(const std::string& text, Role role, ServerId id) {
+    const auto address = parse_address(text);
+    if (!address) return give_up(address.error());
+    async_connect(io_, *address, options_.connect_patience,
+                  [self = shared_from_this(), role, id](Result<asio::ip::tcp::socket> socket) {
+                      if (!self->draw_thread_) return;
+                      if (!socket) return self->give_up(socket.error());
+                      Connection::Options options;
+                      options.hello.role = Role::kServer;
+                      options.hello.session = self->setup_.session;
+                      options.hello.server = self->setup_.server;
+                      options.timing = self->options_.timing;
+                      const auto connection = std::make_shared<Connection>(std::move(*socket), options, self->clock_);
+                      (role == Role::kDisplay ? self->display_ : self->peers_[index(id)]) = connection;
+                      const std::weak_ptr<Connection> weak = connection;
+                      connection->start({[self, role, id](const Hello& hello) {
+                                             if (const auto status = self->on_peer_hello(role, id, hello); !status) return status;
+                                             self->report_if_connected();
+                                             return Status{};
+                                         },
+                                         [self, weak](Message&& message, Buffer&& body) {
+                                             return self->on_message(weak.lock(), std::move(message), std::move(body));
+                                         },
+                                         [self, weak](const Status& why) { self->on_closed(weak.lock(), why); }});
+                  });
+}
+
+Status ServerSession::on_peer_hello(Role role, ServerId id, const Hello& hello) const {
+    if (hello.role != role) return fail("a {} answers where a {} is expected", name(hello.role), name(role));
+    if (hello.session != setup_.session) return fail("this {} is in another session", name(role));
+    if (role == Role::kServer && hello.server != id) return fail("this is server {}, not {}", index(hello.server), index(id));
+    return {};
+}
+
+Status ServerSession::on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello) {
+    if (!set_up_ || hello.session != setup_.session) return fail("this server is in another session");
+    if (index(hello.server) >= peers_.size() || hello.server <= setup_.server || peers_[index(hello.server)])
+        return fail("server {} is not expected here", index(hello.server));
+    peers_[index(hello.server)] = connection;
+    report_if_connected();
+    return {};
+}
+
+void ServerSession::report_if_connected() {
+    if (!connecting_ || connected_ || !display_) return;
+    for (std::size_t i = 0; i < peers_.size(); ++i)
+        if (server_id(i) != setup_.server && !peers_[i]) return;
+    connected_ = true;
+    if (!client_->offer(Connected{})) give_up({"the client does not read"});
+}
+
+// --- frames
+
+Status ServerSession::check(const RenderFrame& task) const {
+    if (!connected_) return fail("RenderFrame before Connected");
+    if (!task.group.empty() && task.group.back() >= objects_)
+        return fail("RenderFrame: object {}, this model has {}", task.group.back(), objects_);
+    for (const auto* exchanges : {&task.outgoing, &task.incoming})
+        for (const Exchange& e : *exchanges)
+            if (index(e.server) >= peers_.size() || e.server == setup_.server)
+                return fail("RenderFrame: an exchange with server {}", index(e.server));
+    return {};
+}
+
+Status ServerSession::on_render_frame(RenderFrame&& task) {
+    if (const auto status = check(task); !status) return status;
+    SwapTask swap{task.frame, {}, {}, !task.final_region.empty()};
+    for (const Exchange& e : task.outgoing) swap.outgoing.push_back(e.server);
+    for (const Exchange& e : task.incoming) swap.incoming.push_back(e.server);
+    const auto actions = swap_->on_task(swap);
+    if (!actions) return tl::unexpected(actions.error());
+
+    OpenFrame& frame = frames_[task.frame];
+    frame.report.frame = task.frame;
+    frame.busy_until = clock_.now();
+    frame.task = std::move(task);
+    // Pieces that came before the task are keyed by frame.
+    for (auto it = early_.begin(); it != early_.end() && it->first.first <= frame.task.frame; it = early_.erase(it))
+        frame.pieces.emplace(it->first.second, std::move(it->second));
+    return run(*actions);
+}
+
+Status ServerSession::from_peer(ServerId from, Message&& message, Buffer&& body) {
+    const auto* pixels = std::get_if<SwathPixels>(&message);
+    if (pixels == nullptr) return fail("{} is not expected from a server", name(message));
+    auto actions = swap_->on_swath(pixels->frame, from);
+    if (!actions) return tl::unexpected(actions.error());
+    Piece piece{pixels->sizes, std::move(body)};
+    if (const auto open = frames_.find(pixels->frame); open != frames_.end())
+        open->second.pieces.emplace(from, std::move(piece));
+    else
+        early_.emplace(std::pair(pixels->frame, from), std::move(piece));
+    return run(*actions);
+}
+
+Status ServerSession::run(const FrameSwap::Actions& actions) {
+    for (const SwapAction& action : actions) {
+        OpenFrame& frame = frames_.at(action.frame);
+        Status status;
+        switch (action.kind) {
+            case SwapAction::Kind::kDraw: draw(frame); break;
+            case SwapAction::Kind::kSendSwath: status = send_swath(frame, action.peer); break;
+            case SwapAction::Kind::kComposite: status = composite(frame, action.peer); break;
+            case SwapAction::Kind::kSendTile: status = send_tile(frame); break;
+            case SwapAction::Kind::kFinished: status = finish(action.frame); break;
+        }
+        if (!status) return status;
+    }
+    return {};
+}
+
+void ServerSession::draw(OpenFrame& frame) {
+    DrawJob job{frame.task.view, std::move(frame.task.group), frame.task.content, frame.task.final_region, {}};
+    if (!pool_.empty()) {
+        job.pixels = std::move(pool_.back());
+        pool_.pop_back();
+    }
+    draw_thread_->draw(std::move(job), [self = shared_from_this(), number = frame.task.frame](Drawn drawn) {
+        asio::post(self->io_, [self, number, drawn = std::make_shared<Drawn>(std::move(drawn))] {
+            if (!self->draw_thread_) return;
+            if (!drawn->status) return self->give_up(drawn->status.error());
+            OpenFrame& open = self->frames_.at(number);
+            open.pixels = std::move(drawn->pixels);
+            ServerReport& report = open.report;
+            report.spans = std::move(drawn->spans);
+            // Before drawing it waited for its turn behind the frame before.
+            report.spans.insert(report.spans.begin(), {Phase::kWait, open.busy_until, report.spans.front().begin, Nanoseconds(0)});
+            report[Counter::kObjects] = drawn->objects;
+            report[Counter::kTriangles] = drawn->triangles;
+            open.busy_until = report.spans.back().end;
+            if (const auto status = self->run(self->swap_->on_drawn(number)); !status) self->give_up(status.error());
+        });
+    });
+}
+
+namespace {
+
+// Adds a span that began at construction, and the wait since the frame's last span.
+class PhaseTimer {
+  public:
+    PhaseTimer(const Clock& clock, ServerReport& report, Nanoseconds& busy_until)
+        : clock_(clock), report_(report), busy_until_(busy_until), begin_(clock.now()), cpu_(clock.thread_cpu()) {
+        if (begin_ > busy_until_) report_.spans.push_back({Phase::kWait, busy_until_, begin_, Nanoseconds(0)});
+    }
+    void end(Phase phase) {
+        const Nanoseconds now = clock_.now();
+        const Nanoseconds cpu_now = clock_.thread_cpu();
+        report_.spans.push_back({phase, begin_, now, cpu_now - cpu_});
+        busy_until_ = begin_ = now;
+        cpu_ = cpu_now;
+    }
+
+  private:
+    const Clock& clock_;
+    ServerReport& report_;
+    Nanoseconds& busy_until_;
+    Nanoseconds begin_;
+    Nanoseconds cpu_;
+};
+
+const Region& region_of(const std::vector<Exchange>& exchanges, ServerId server) {
+    for (const Exchange& e : exchanges)
+        if (e.server == server) return e.region;
+    CHECK(false);
+    std::abort();
+}
+
+}  // namespace
+
+Status ServerSession::send_swath(OpenFrame& frame, ServerId to) {
+    PhaseTimer timer(clock_, frame.report, frame.busy_until);
+    Buffer body;
+    const BodySizes sizes = encode_swath(frame.pixels, region_of(frame.task.outgoing, to), body);
+    const std::size_t bytes = body.size();
+    const auto& peer = peers_[index(to)];
+    if (!peer) return fail("server {} has gone", index(to));
+    const auto sent = peer->offer(SwathPixels{frame.task.frame, sizes}, std::move(body));
+    if (!sent) return fail("server {} does not read: its send queue is full", index(to));
+    frame.report[Counter::kSwapPixels] += sizes.pixels;
+    frame.report[Counter::kSwapBytes] += bytes + *sent;
+    timer.end(Phase::kSwap);
+    return {};
+}
+
+Status ServerSession::composite(OpenFrame& frame, ServerId from) {
+    PhaseTimer timer(clock_, frame.report, frame.busy_until);
+    const auto piece = frame.pieces.extract(from);
+    CHECK(piece.empty() == false);
+    const auto status = composite_swath(piece.mapped().body.bytes(), piece.mapped().sizes, region_of(frame.task.incoming, from),
+                                        static_cast<ObjectId>(objects_), frame.pixels);
+    if (!status) return fail("garbled pixels from server {}: {}", index(from), status.error().message);
+    frame.report[Counter::kReceivedPixels] += piece.mapped().sizes.pixels;
+    timer.end(Phase::kPixelWrite);
+    return {};
+}
+
+Status ServerSession::send_tile(OpenFrame& frame) {
+    PhaseTimer timer(clock_, frame.report, frame.busy_until);
+    Buffer body;
+    const BodySizes sizes = encode_tile(frame.pixels, frame.task.final_region, body);
+    const std::size_t bytes = body.size();
+    timer.end(Phase::kFinalRead);
+    if (!display_) return fail("the display has gone");
+    const auto sent = display_->offer(TilePixels{frame.task.frame, sizes}, std::move(body));
+    if (!sent) return fail("the display does not read: its send queue is full");
+    frame.report[Counter::kTilePixels] += sizes.pixels;
+    frame.report[Counter::kTileBytes] += bytes + *sent;
+    timer.end(Phase::kSend);
+    return {};
+}
+
+Status ServerSession::finish(FrameNumber number) {
+    auto open = frames_.extract(number);
+    pool_.push_back(std::move(open.mapped().pixels));
+    if (!client_->offer(open.mapped().report)) return fail("the client does not read: its send queue is full");
+    return {};
+}
+
+}  // namespace swath

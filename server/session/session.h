@@ -1,0 +1,88 @@
+#pragma once
+#include <boost/asio/io_context.hpp>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "common/wire/connection.h"
+#include "server/session/draw_thread.h"
+#include "server/session/model_store.h"
+#include "server/session/server.h"
+#include "server/swap/frame_swap.h"
+
+namespace swath {
+
+// One client's run on one server: set-up, connections to peers and display, and the frames. It does what FrameSwap
+// decides. On the io_context's thread; owned by Server::Impl; callbacks of work in progress keep it alive, and after
+// stop() they do nothing.
+class ServerSession : public std::enable_shared_from_this<ServerSession> {
+  public:
+    ServerSession(boost::asio::io_context& io, const ServerOptions& options, const Clock& clock, RendererFactory factory,
+                  std::shared_ptr<Connection> client);
+
+    std::uint64_t id() const { return setup_.session; }
+    ServerId server() const { return setup_.server; }
+
+    // A peer with a larger id has connected.
+    Status on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello);
+    Status on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body);
+    // True when this ends the session.
+    bool on_closed(const std::shared_ptr<Connection>& connection, const Status& why);
+    // Closes every connection and waits for the draw thread.
+    void stop();
+
+  private:
+    struct Piece {
+        BodySizes sizes;
+        Buffer body;
+    };
+    struct OpenFrame {
+        RenderFrame task;
+        PixelFrame pixels;
+        std::map<ServerId, Piece> pieces;
+        ServerReport report;
+        Nanoseconds busy_until{0};  // the end of its last span
+    };
+
+    Status from_client(Message&& message, Buffer&& body);
+    Status on_setup(const ServerSetup& setup);
+    Status on_model_part(const ModelPart& part, const Buffer& body);
+    void load(Mesh mesh);
+    Status on_connect();
+    void connect(const std::string& address, Role role, ServerId id);
+    Status on_peer_hello(Role role, ServerId id, const Hello& hello) const;
+    void report_if_connected();
+    Status on_render_frame(RenderFrame&& task);
+    Status check(const RenderFrame& task) const;
+    Status from_peer(ServerId from, Message&& message, Buffer&& body);
+    Status run(const FrameSwap::Actions& actions);
+    void draw(OpenFrame& frame);
+    Status send_swath(OpenFrame& frame, ServerId to);
+    Status composite(OpenFrame& frame, ServerId from);
+    Status send_tile(OpenFrame& frame);
+    Status finish(FrameNumber number);
+    void give_up(const Error& error);
+
+    boost::asio::io_context& io_;
+    const ServerOptions& options_;
+    const Clock& clock_;
+    std::shared_ptr<Connection> client_;
+    ModelStore store_;
+    std::unique_ptr<DrawThread> draw_thread_;
+
+    ServerSetup setup_;
+    bool set_up_ = false;
+    bool ready_ = false;
+    bool connecting_ = false;
+    bool connected_ = false;
+    Buffer blob_;  // of a model that the client sends
+    std::size_t objects_ = 0;
+    std::vector<std::shared_ptr<Connection>> peers_;  // by ServerId; null for ourselves and until connected
+    std::shared_ptr<Connection> display_;
+    std::unique_ptr<FrameSwap> swap_;
+    std::map<FrameNumber, OpenFrame> frames_;
+    std::map<std::pair<FrameNumber, ServerId>, Piece> early_;  // pieces of frames without a task
+    std::vector<PixelFrame> pool_;
+};
+
+}  // namespace swath
