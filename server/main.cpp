@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
 
     const SteadyClock clock;
     boost::asio::io_context io(1);
-    const auto server = Server::make(io, options, clock, make_renderer);
+    const auto server = make_server(io, options, clock, make_renderer);
     if (!server) return run_error(server.error());
     announce((*server)->address());
     return run_until_stopped(io, program);

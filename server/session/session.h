@@ -13,23 +13,19 @@
 namespace swath {
 
 // One client's run on one server: set-up, connections to peers and display, and the frames. It does what FrameSwap
-// decides. On the io_context's thread; owned by Server::Impl; callbacks of work in progress keep it alive, and after
-// stop() they do nothing.
-class ServerSession : public std::enable_shared_from_this<ServerSession> {
+// decides. On the io_context's thread; callbacks of work in progress keep it alive, and after stop() they do nothing.
+class ServerSession final : public Session, public std::enable_shared_from_this<ServerSession> {
   public:
     ServerSession(boost::asio::io_context& io, const ServerOptions& options, const Clock& clock, RendererFactory factory,
                   std::shared_ptr<Connection> client);
 
-    std::uint64_t id() const { return setup_.session; }
-    ServerId server() const { return setup_.server; }
-
-    // A peer with a larger id has connected.
-    Status on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello);
-    Status on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body);
-    // True when this ends the session.
-    bool on_closed(const std::shared_ptr<Connection>& connection, const Status& why);
-    // Closes every connection and waits for the draw thread.
-    void stop();
+    std::uint64_t id() const override { return setup_.session; }
+    ServerId server() const override { return setup_.server; }
+    // Of a server with a larger id.
+    Status on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello) override;
+    Status on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) override;
+    bool on_closed(const std::shared_ptr<Connection>& connection, const Status& why) override;
+    void stop() override;
 
   private:
     struct Piece {
@@ -64,7 +60,7 @@ class ServerSession : public std::enable_shared_from_this<ServerSession> {
     void give_up(const Error& error);
 
     boost::asio::io_context& io_;
-    const ServerOptions& options_;
+    ServerOptions options_;
     const Clock& clock_;
     std::shared_ptr<Connection> client_;
     ModelStore store_;

@@ -1,0 +1,21 @@
+#pragma once
+#include <boost/asio/io_context.hpp>
+#include <memory>
+
+#include "common/base/clock.h"
+#include "common/base/result.h"
+#include "common/wire/session_host.h"
+
+namespace swath {
+
+struct DisplayOptions {
+    Address listen{"127.0.0.1", 0};
+    WireTiming timing;
+};
+
+// The display: waits for a client, assembles the tiles that servers send into pictures, encodes them if the client wants
+// them, and tells it when each is complete. Encoding runs on a thread of its own, all else on the io_context's.
+Result<std::unique_ptr<SessionHost>> make_display(boost::asio::io_context& io, const DisplayOptions& options,
+                                                  const Clock& clock);
+
+}  // namespace swath

@@ -1,0 +1,176 @@
+#include "display/session/session.h"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/post.hpp>
+#include <utility>
+
+#include "common/base/check.h"
+
+namespace swath {
+namespace asio = boost::asio;
+
+DisplaySession::DisplaySession(asio::io_context& io, const Clock& clock, std::shared_ptr<Connection> client)
+    : io_(io), clock_(clock), client_(std::move(client)), encoder_(std::make_unique<WorkerThread>()) {}
+
+void DisplaySession::stop() {
+    stopped_ = true;
+    client_->finish();
+    for (const auto& server : servers_)
+        if (server) server->finish();
+    servers_.clear();
+    encoder_.reset();
+}
+
+void DisplaySession::give_up(const Error& error) {
+    if (!stopped_) client_->fail_with(error);
+}
+
+bool DisplaySession::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
+    if (connection == client_) {
+        if (why)
+            spdlog::info("client {}: done", connection->peer());
+        else
+            spdlog::warn("client {}: {}; waiting for the next client", connection->peer(), why.error().message);
+        return true;
+    }
+    for (std::size_t i = 0; i < servers_.size(); ++i) {
+        if (servers_[i] != connection) continue;
+        servers_[i].reset();
+        if (why) continue;  // a Bye: the client has ended the run and the server heard of it first
+        const std::string line = fmt::format("lost server {} ({}): {}", i, connection->peer(), why.error().message);
+        spdlog::warn("{}; ending the session", line);
+        give_up(Error{line});
+    }
+    return false;
+}
+
+Status DisplaySession::on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello) {
+    if (!assembly_ || hello.session != setup_.session) return fail("this display is in another session");
+    if (index(hello.server) >= servers_.size() || servers_[index(hello.server)])
+        return fail("server {} is not expected here", index(hello.server));
+    servers_[index(hello.server)] = connection;
+    return {};
+}
+
+Status DisplaySession::on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) {
+    if (stopped_) return {};
+    if (from == client_) return from_client(message);
+    for (std::size_t i = 0; i < servers_.size(); ++i)
+        if (servers_[i] == from) return from_server(server_id(i), message, std::move(body));
+    return fail("{} is not expected here", name(message));
+}
+
+Status DisplaySession::from_client(const Message& message) {
+    if (const auto* setup = std::get_if<DisplaySetup>(&message)) {
+        if (assembly_) return fail("DisplaySetup came twice");
+        setup_ = *setup;
+        servers_.resize(setup->servers);
+        assembly_ = std::make_unique<Assembly>(setup->frames_in_flight);
+        if (!client_->offer(Ready{})) return fail("does not read");
+        return {};
+    }
+    if (const auto* task = std::get_if<AssembleFrame>(&message)) return on_assemble(*task);
+    return fail("{} is not expected from a client", name(message));
+}
+
+Status DisplaySession::on_assemble(const AssembleFrame& task) {
+    if (!assembly_) return fail("AssembleFrame before DisplaySetup");
+    std::vector<ServerId> servers;
+    for (const Exchange& e : task.tiles) {
+        if (index(e.server) >= servers_.size()) return fail("AssembleFrame: server {} of {}", index(e.server), servers_.size());
+        servers.push_back(e.server);
+    }
+    const auto actions = assembly_->on_task(task.frame, servers);
+    if (!actions) return tl::unexpected(actions.error());
+
+    OpenFrame& frame = frames_[task.frame];
+    frame.task = task;
+    frame.report.frame = task.frame;
+    if (!pool_.empty()) {
+        frame.picture = std::move(pool_.back());
+        pool_.pop_back();
+    }
+    const Nanoseconds begin = frame.busy_until = clock_.now();
+    const Nanoseconds cpu_begin = clock_.thread_cpu();
+    fill(frame.picture, task.width, task.height, task.background);
+    add_span(frame, Phase::kAssemble, begin, cpu_begin);
+    for (auto it = early_.begin(); it != early_.end() && it->first.first <= task.frame; it = early_.erase(it))
+        frame.tiles.emplace(it->first.second, std::move(it->second));
+    return run(*actions);
+}
+
+Status DisplaySession::from_server(ServerId from, const Message& message, Buffer&& body) {
+    const auto* pixels = std::get_if<TilePixels>(&message);
+    if (pixels == nullptr) return fail("{} is not expected from a server", name(message));
+    const auto actions = assembly_->on_tile(pixels->frame, from);
+    if (!actions) return tl::unexpected(actions.error());
+    Tile tile{pixels->sizes, std::move(body)};
+    if (const auto open = frames_.find(pixels->frame); open != frames_.end())
+        open->second.tiles.emplace(from, std::move(tile));
+    else
+        early_.emplace(std::pair(pixels->frame, from), std::move(tile));
+    return run(*actions);
+}
+
+Status DisplaySession::run(const Assembly::Actions& actions) {
+    for (const AssemblyAction& action : actions) {
+        switch (action.kind) {
+            case AssemblyAction::Kind::kMerge:
+                if (const auto status = merge(frames_.at(action.frame), action.server); !status) return status;
+                break;
+            case AssemblyAction::Kind::kComplete: complete(action.frame); break;
+        }
+    }
+    return {};
+}
+
+// The span since `begin`, and the wait since the span before it.
+void DisplaySession::add_span(OpenFrame& frame, Phase phase, Nanoseconds begin, Nanoseconds cpu_begin) {
+    const Nanoseconds now = clock_.now();
+    if (begin > frame.busy_until) frame.report.spans.push_back({Phase::kWait, frame.busy_until, begin, Nanoseconds(0)});
+    frame.report.spans.push_back({phase, begin, now, clock_.thread_cpu() - cpu_begin});
+    frame.busy_until = now;
+}
+
+Status DisplaySession::merge(OpenFrame& frame, ServerId from) {
+    const Nanoseconds begin = clock_.now();
+    const Nanoseconds cpu_begin = clock_.thread_cpu();
+    const auto tile = frame.tiles.extract(from);
+    CHECK(tile.empty() == false);
+    const Region* region = nullptr;
+    for (const Exchange& e : frame.task.tiles)
+        if (e.server == from) region = &e.region;
+    CHECK((region != nullptr) == true);
+    const auto status = assemble_tile(tile.mapped().body.bytes(), tile.mapped().sizes, *region, frame.picture);
+    if (!status) return fail("garbled tile from server {}: {}", index(from), status.error().message);
+    add_span(frame, Phase::kAssemble, begin, cpu_begin);
+    return {};
+}
+
+void DisplaySession::complete(FrameNumber number) {
+    auto frame = std::make_shared<OpenFrame>(std::move(frames_.at(number)));
+    frames_.erase(number);
+    if (setup_.format == PictureFormat::kNone) {
+        pool_.push_back(std::move(frame->picture));
+        report(std::move(frame->report), {});
+        return;
+    }
+    encoder_->post([self = shared_from_this(), frame] {
+        const Nanoseconds begin = self->clock_.now();
+        const Nanoseconds cpu_begin = self->clock_.thread_cpu();
+        auto encoded = std::make_shared<Buffer>(encode(frame->picture, self->setup_.format));
+        self->add_span(*frame, Phase::kEncode, begin, cpu_begin);
+        asio::post(self->io_, [self, frame, encoded] {
+            if (self->stopped_) return;
+            self->pool_.push_back(std::move(frame->picture));
+            self->report(std::move(frame->report), std::move(*encoded));
+        });
+    });
+}
+
+void DisplaySession::report(DisplayReport&& report, Buffer encoded) {
+    if (!client_->offer(report, std::move(encoded))) give_up({"the client does not read: its send queue is full"});
+}
+
+}  // namespace swath

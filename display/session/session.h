@@ -1,0 +1,62 @@
+#pragma once
+#include <boost/asio/io_context.hpp>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "common/base/worker_thread.h"
+#include "common/wire/session_host.h"
+#include "display/assemble/assembly.h"
+
+namespace swath {
+
+// One client's run on the display. It does what Assembly decides. A complete picture is encoded before its frame is
+// reported, so that encoding slower than rendering holds the client back instead of piling up.
+class DisplaySession final : public Session, public std::enable_shared_from_this<DisplaySession> {
+  public:
+    DisplaySession(boost::asio::io_context& io, const Clock& clock, std::shared_ptr<Connection> client);
+
+    std::uint64_t id() const override { return setup_.session; }
+    ServerId server() const override { return {}; }
+    Status on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello) override;
+    Status on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) override;
+    bool on_closed(const std::shared_ptr<Connection>& connection, const Status& why) override;
+    void stop() override;
+
+  private:
+    struct Tile {
+        BodySizes sizes;
+        Buffer body;
+    };
+    struct OpenFrame {
+        AssembleFrame task;
+        Picture picture;
+        std::map<ServerId, Tile> tiles;
+        DisplayReport report;
+        Nanoseconds busy_until{0};
+    };
+
+    Status from_client(const Message& message);
+    Status on_assemble(const AssembleFrame& task);
+    Status from_server(ServerId from, const Message& message, Buffer&& body);
+    Status run(const Assembly::Actions& actions);
+    Status merge(OpenFrame& frame, ServerId from);
+    void complete(FrameNumber number);
+    void report(DisplayReport&& report, Buffer encoded);
+    void give_up(const Error& error);
+    void add_span(OpenFrame& frame, Phase phase, Nanoseconds begin, Nanoseconds cpu_begin);
+
+    boost::asio::io_context& io_;
+    const Clock& clock_;
+    std::shared_ptr<Connection> client_;
+    DisplaySetup setup_;
+    bool stopped_ = false;
+    std::vector<std::shared_ptr<Connection>> servers_;  // by ServerId; null until connected
+    std::unique_ptr<Assembly> assembly_;
+    std::map<FrameNumber, OpenFrame> frames_;
+    std::map<std::pair<FrameNumber, ServerId>, Tile> early_;  // tiles of frames without a task
+    std::vector<Picture> pool_;
+    std::unique_ptr<WorkerThread> encoder_;
+};
+
+}  // namespace swath
