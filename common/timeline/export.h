@@ -6,14 +6,20 @@
 
 namespace swath {
 
-// Tidy CSV, a row per span and per non-zero counter:
+// Both exports are deterministic: equal timelines give equal text, whatever the locale. Times are relative to
+// the earliest span of all frames.
+
+// Tidy CSV, ended lines, fields quoted where RFC 4180 asks for it:
 //   frame,machine,kind,name,begin_ms,end_ms,cpu_ms,value
-// kind is "span" (value empty) or "counter" (times empty). Times start at the first span of the first frame.
+// A row per span (kind "span", value empty; six decimals, so exact nanoseconds; cpu_ms is 0 where unknown),
+// per non-zero counter (kind "counter", times empty) and one per frame (kind "frame", name "overlap_factor",
+// machine and times empty).
 std::string to_csv(std::span<const FrameTimeline> frames);
 
-// The trace event format that chrome://tracing and ui.perfetto.dev open: a process per machine, a complete
-// ("X") event per span with the frame number as argument. Overlapping spans of one machine go to separate
-// tracks.
+// The trace event format that chrome://tracing and ui.perfetto.dev open: a process per machine in order of
+// first appearance, a complete ("X") event per span in microseconds, with the frame number and, where known,
+// the CPU milliseconds as arguments. Spans of one machine that overlap (pipelined frames, several threads) go
+// to separate tracks, as few as possible. One event a line. Names that are not UTF-8 are mended.
 std::string to_chrome_trace(std::span<const FrameTimeline> frames);
 
 }  // namespace swath

@@ -26,7 +26,7 @@ enum class Phase : std::uint8_t {
     kWait,        // any: nothing to do until a message comes
 };
 inline constexpr std::size_t kPhaseCount = 11;
-std::string_view name(Phase phase);  // "partition", "cull", "render", "pixel read", ...
+std::string_view name(Phase phase);  // "partition", "cull", "render", "pixel read", ...; CHECKs the range
 
 // What a machine counted for a frame.
 enum class Counter : std::uint8_t {
@@ -50,9 +50,14 @@ struct Span {
     bool operator==(const Span&) const = default;
 };
 
+// What machines are called: "client", "display", and servers by their place ("server 0"). Summaries tell
+// servers by these names, so whoever records or simulates a server's time takes its name from here.
+std::string server_name(ServerId id);
+bool is_server(std::string_view machine);
+
 // One machine's part of a frame.
 struct MachineTimeline {
-    std::string machine;  // "client", "server 0", "display"
+    std::string machine;
     std::vector<Span> spans;
     std::array<std::uint64_t, kCounterCount> counters{};
     std::uint64_t& operator[](Counter c) { return counters[static_cast<std::size_t>(c)]; }
