@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,14 +20,19 @@ struct Picture {
     bool operator==(const Picture&) const = default;
 };
 
+inline constexpr int kMaxPictureSide = 16384;  // pixels, of what encode and decode_png take
+
 enum class PictureFormat { kNone, kPng, kJpeg };
 
 // The file's bytes: PNG (lossless, fast settings; the same picture always gives the same bytes) or JPEG
-// (quality 90, 4:2:0). Top-down in the file, as viewers expect. CHECKs that format is not kNone.
+// (quality 90, 4:2:0). Top-down in the file, as viewers expect. CHECKs that format is not kNone, that both
+// sides are 1 to kMaxPictureSide and that rgb has their bytes. Throws std::runtime_error when a codec fails
+// (memory). Any thread.
 Buffer encode(const Picture& picture, PictureFormat format);
-std::string file_extension(PictureFormat format);  // "png", "jpg"
+std::string file_extension(PictureFormat format);  // "png", "jpg"; CHECKs that format is not kNone
 
-// For tests and comparisons: a PNG's pixels as a Picture.
+// For tests and comparisons: a PNG's pixels as a Picture, whatever its colour type; 16 bits become 8,
+// transparency is laid over black. Fails on anything damaged and on sides over kMaxPictureSide.
 Result<Picture> decode_png(std::span<const std::uint8_t> bytes);
 
 }  // namespace swath
