@@ -4,15 +4,28 @@
 #include <cstring>
 #include <memory>
 #include <span>
+#include <utility>
 
 namespace swath {
 
 // A block of bytes that grows without being zeroed and keeps its capacity when it is reused. Movable, not
-// copied: pixel bodies are megabytes.
+// copied: pixel bodies are megabytes. A buffer that was moved from is empty and can be used again. One thread
+// at a time.
 class Buffer {
   public:
     Buffer() = default;
     explicit Buffer(std::size_t size) { resize(size); }
+    Buffer(Buffer&& from) noexcept
+        : data_(std::move(from.data_)),
+          size_(std::exchange(from.size_, 0)),
+          capacity_(std::exchange(from.capacity_, 0)) {}
+    Buffer& operator=(Buffer&& from) noexcept {
+        Buffer taken(std::move(from));
+        std::swap(data_, taken.data_);
+        std::swap(size_, taken.size_);
+        std::swap(capacity_, taken.capacity_);
+        return *this;
+    }
 
     std::uint8_t* data() { return data_.get(); }
     const std::uint8_t* data() const { return data_.get(); }
@@ -25,6 +38,7 @@ class Buffer {
         if (size > capacity_) grow(size);
         size_ = size;
     }
+    // `from` lies outside of this buffer, which may move.
     void append(const void* from, std::size_t count) {
         if (count == 0) return;
         const std::size_t at = size_;

@@ -1,7 +1,9 @@
 #pragma once
+#include <cstdint>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace swath {
 
@@ -16,8 +18,14 @@ namespace check_detail {
 
 template <class T>
 void print(std::ostream& out, const T& value) {
-    if constexpr (requires { out << value; }) {
+    if constexpr (std::is_same_v<T, bool>) {
+        out << (value ? "true" : "false");
+    } else if constexpr (std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::int8_t>) {
+        out << static_cast<int>(value);  // a byte, not a character
+    } else if constexpr (requires { out << value; }) {
         out << value;
+    } else if constexpr (std::is_enum_v<T>) {
+        print(out, static_cast<std::underlying_type_t<T>>(value));  // ServerId and the like
     } else {
         out << "?";
     }
@@ -53,9 +61,10 @@ struct Left {
     operator Outcome() const { return {static_cast<bool>(left), "false"}; }
 };
 
+// <=> binds tighter than every comparison and looser than arithmetic and shifts: it takes just the left side.
 struct Start {
     template <class L>
-    Left<L> operator<<(const L& left) const {
+    Left<L> operator<=>(const L& left) const {
         return {left};
     }
 };
@@ -63,11 +72,12 @@ struct Start {
 }  // namespace check_detail
 }  // namespace swath
 
-// CHECK(a == b): stays on in release builds; on failure throws CheckFailed naming both values.
+// CHECK(a == b): stays on in release builds; on failure throws CheckFailed naming both values. One comparison
+// or one value that converts to bool; of two conditions make two CHECKs.
 #define CHECK(expression)                                                                               \
     do {                                                                                                \
-        const ::swath::check_detail::Outcome swath_check_outcome = ::swath::check_detail::Start{}       \
-                                                                   << expression;                       \
+        const ::swath::check_detail::Outcome swath_check_outcome =                                      \
+            ::swath::check_detail::Start{} <=> expression;                                              \
         if (!swath_check_outcome.ok)                                                                    \
             ::swath::check_detail::failed(#expression, __FILE__, __LINE__, swath_check_outcome.values); \
     } while (false)
