@@ -31,16 +31,22 @@ struct Mesh {
 // The limits of a mesh: indices are 32 bits, and a triangle count fits in 31.
 inline constexpr std::size_t kMaxVertices = 0xffff'fff0;
 inline constexpr std::size_t kMaxTriangles = 0x7fff'fff0;
+// The largest size of a coordinate: the squared diagonal of a model of this size still fits in a float.
+inline constexpr float kMaxCoordinate = 1e18f;
 
 // Why this mesh cannot be rendered, as one line, or success: no triangles, an index out of range, a
-// coordinate that is not finite, or so large that its square overflows. Zero-area triangles are allowed.
+// coordinate that is not finite or above kMaxCoordinate. The line says how many there are and names the
+// first. Zero-area triangles and unreferenced vertices are allowed.
 Status validate(const Mesh& mesh);
 
+// The direction of `n`, which need not have unit length; +z where it has none (zero or not finite).
 std::array<std::int16_t, 3> pack_normal(const glm::vec3& n);
 
-// Replaces every normal by the area-weighted mean of its triangles' normals.
+// Replaces every normal by the area-weighted mean of its triangles' normals, summed in the order of the
+// triangles; +z for a vertex without a triangle of positive area. Indices must be in range.
 void compute_normals(Mesh& mesh);
 
+// The box of the triangles: vertices that none of them uses do not count. Indices must be in range.
 Box bounds(const Mesh& mesh);
 
 }  // namespace swath
