@@ -276,7 +276,7 @@ void add_house(TownBuilder& town, double x, double z, double height, std::size_t
 
 // Houses wall to wall; their bottoms lie on the block's paving, that on the town's ground; across each of the
 // four fronts hangs a banner in the plane of the walls. All of these coincide and have different colours, and
-// the large ones have their centroids, and so their octree cells, far from much of what they coincide with.
+// the large ones have their centres, and so their octree cells, far from much of what they coincide with.
 void add_block(TownBuilder& town, std::size_t column, std::size_t row, std::size_t n) {
     const auto x0 = static_cast<double>(column * kPitch);
     const auto z0 = static_cast<double>(row * kPitch);
