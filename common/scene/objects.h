@@ -10,7 +10,10 @@
 
 namespace swath {
 
-// An atom of partitioning: the triangles whose centroids fall in one octree cell (Samanta 2000, section 7).
+// An atom of partitioning: the triangles whose centres fall in one octree cell (Samanta 2000, section 7). A
+// triangle's centre is that of its bounding box, not the mean of its corners: the paper says centroid and
+// does not define it, and this one comes closer to its number of objects (the Dragon at depth 4 has 1,259
+// cells with box centres, 1,261 with means, in float and in double alike, and 1,257 in the paper).
 struct Object {
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
@@ -25,7 +28,7 @@ struct Granularity {
 };
 inline constexpr int kMaxOctreeDepth = 10;
 
-// A model cut into objects. Triangles are stored in the order of their centroids' Morton codes in the model's
+// A model cut into objects. Triangles are stored in the order of their centres' Morton codes in the model's
 // tight, non-cubic box, so that every object of every depth is a contiguous range, ascending object ids are
 // ascending triangles, and a picture does not depend on the depth. Vertices are numbered by first use.
 // Immutable after build_objects; any thread may read it.

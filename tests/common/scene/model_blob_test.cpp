@@ -1,0 +1,98 @@
+#include "common/scene/model_blob.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "tests/support/models.h"
+
+namespace swath {
+namespace {
+
+using ::testing::HasSubstr;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::size_t kVersionAt = 4;
+constexpr std::size_t kVerticesAt = 8;
+constexpr std::size_t kIndicesAt = 16;
+constexpr std::size_t kBodyAt = 24;
+
+Bytes cube_blob() {
+    const Buffer blob = write_blob(test::cube());
+    return Bytes(blob.data(), blob.data() + blob.size());
+}
+
+template <class T>
+Bytes with(Bytes bytes, std::size_t at, T value) {
+    std::memcpy(bytes.data() + at, &value, sizeof(value));
+    return bytes;
+}
+
+std::string why_not(const Bytes& bytes) {
+    const Result<Mesh> mesh = read_blob(bytes);
+    return mesh ? "valid" : mesh.error().message;
+}
+
+TEST(ModelBlobTest, a_mesh_survives_the_round_trip_bit_for_bit) {
+    for (const Mesh& mesh : {test::cube(), test::triangle_soup(1000, 1)}) {
+        const Buffer blob = write_blob(mesh);
+        EXPECT_EQ(blob.size(), 24 + 24 * mesh.vertices.size() + 4 * mesh.indices.size());
+        const Result<Mesh> again = read_blob(blob.bytes());
+        ASSERT_TRUE(again) << again.error().message;
+        EXPECT_EQ(*again, mesh);
+    }
+}
+
+TEST(ModelBlobTest, the_digest_is_sha_256) {
+    constexpr std::string_view kText = "abc";
+    const Digest abc = digest({reinterpret_cast<const std::uint8_t*>(kText.data()), kText.size()});
+    EXPECT_EQ(to_hex(abc), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    EXPECT_EQ(to_hex(digest({})), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST(ModelBlobTest, every_prefix_is_refused) {
+    const Bytes blob = cube_blob();
+    for (std::size_t size = 0; size < blob.size(); ++size) {
+        // A copy of exactly that size, so that the sanitizers see a read past its end.
+        EXPECT_NE(why_not(Bytes(blob.begin(), blob.begin() + static_cast<std::ptrdiff_t>(size))), "valid")
+            << size;
+    }
+}
+
+TEST(ModelBlobTest, bytes_after_the_end_are_refused) {
+    Bytes blob = cube_blob();
+    blob.push_back(0);
+    EXPECT_THAT(why_not(blob), HasSubstr("361 bytes, 8 vertices and 36 indices need 360"));
+}
+
+TEST(ModelBlobTest, another_magic_or_version_is_refused) {
+    EXPECT_THAT(why_not(with(cube_blob(), 0, 'X')), HasSubstr("SWMB"));
+    EXPECT_THAT(why_not(with(cube_blob(), kVersionAt, std::uint32_t{2})), HasSubstr("version 2"));
+}
+
+TEST(ModelBlobTest, counts_that_overflow_are_refused_by_their_limits) {
+    EXPECT_THAT(why_not(with(cube_blob(), kVerticesAt, std::uint64_t{0xffff'fff1})),
+                HasSubstr("the limit is"));
+    EXPECT_THAT(why_not(with(cube_blob(), kIndicesAt, ~std::uint64_t{0})), HasSubstr("the limit is"));
+    // 24 * 2^61 and 4 * 2^62 are 0 in 64 bits.
+    EXPECT_THAT(why_not(with(cube_blob(), kVerticesAt, std::uint64_t{1} << 61 | 8)),
+                HasSubstr("the limit is"));
+    EXPECT_THAT(why_not(with(cube_blob(), kIndicesAt, std::uint64_t{1} << 62 | 36)),
+                HasSubstr("the limit is"));
+    EXPECT_THAT(why_not(with(cube_blob(), kVerticesAt, std::uint64_t{4'000'000'000})),
+                HasSubstr("need 96000000168"));
+}
+
+TEST(ModelBlobTest, a_mesh_that_cannot_be_rendered_is_refused) {
+    EXPECT_THAT(why_not(with(cube_blob(), kBodyAt, std::uint32_t{0x7fc00000})), HasSubstr("not finite"));
+    EXPECT_THAT(why_not(with(cube_blob(), kBodyAt + 8 * 24, std::uint32_t{8})), HasSubstr("out of range"));
+    Mesh empty = test::cube();
+    empty.indices.clear();
+    EXPECT_FALSE(read_blob(write_blob(empty).bytes()));
+}
+
+}  // namespace
+}  // namespace swath

@@ -1,0 +1,206 @@
+#include "common/scene/procedural.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "common/scene/model_blob.h"
+#include "common/scene/objects.h"
+
+namespace swath {
+namespace {
+
+using ::testing::HasSubstr;
+
+Mesh make(const std::string& name, std::size_t triangles) {
+    Result<Mesh> mesh = make_builtin(name, triangles);
+    EXPECT_TRUE(mesh) << mesh.error().message;
+    return mesh ? *std::move(mesh) : Mesh{};
+}
+
+glm::dvec2 flat(const glm::vec3& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
+
+// Twice the signed area of a, b, p.
+double side(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+// Whether a line along `axis` through `at` passes inside triangle t.
+bool passes(const Mesh& mesh, std::size_t t, int axis, const glm::dvec2& at) {
+    const glm::dvec2 a = flat(mesh.vertices[mesh.indices[3 * t]].position, axis);
+    const glm::dvec2 b = flat(mesh.vertices[mesh.indices[3 * t + 1]].position, axis);
+    const glm::dvec2 c = flat(mesh.vertices[mesh.indices[3 * t + 2]].position, axis);
+    const double u = side(a, b, at);
+    const double v = side(b, c, at);
+    const double w = side(c, a, at);
+    return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+}
+
+TEST(ProceduralTest, there_is_a_knot_a_field_of_spheres_and_a_town) {
+    std::set<std::string> names;
+    for (const BuiltinModel& model : builtin_models()) names.insert(model.name);
+    EXPECT_EQ(names, (std::set<std::string>{"knot", "spheres", "town"}));
+}
+
+TEST(ProceduralTest, every_model_is_valid_and_as_large_as_wished_within_5_percent) {
+    for (const BuiltinModel& model : builtin_models())
+        for (const std::size_t wish : {1000u, 3001u, 10'000u, 33'333u, 100'000u, 1'000'000u}) {
+            const Mesh mesh = make(model.name, wish);
+            EXPECT_TRUE(validate(mesh)) << model.name << ' ' << wish;
+            const double count = static_cast<double>(mesh.triangle_count());
+            EXPECT_NEAR(count, static_cast<double>(wish), 0.05 * static_cast<double>(wish)) << model.name;
+        }
+}
+
+TEST(ProceduralTest, small_wishes_are_met_roughly) {
+    for (const BuiltinModel& model : builtin_models())
+        for (std::size_t wish = 12; wish < 1000; wish += 7) {
+            const Mesh mesh = make(model.name, wish);
+            EXPECT_TRUE(validate(mesh));
+            EXPECT_LE(mesh.triangle_count(), wish + wish / 4) << model.name << ' ' << wish;
+            EXPECT_GE(mesh.triangle_count(), wish - wish / 4) << model.name << ' ' << wish;
+        }
+}
+
+TEST(ProceduralTest, the_default_is_a_million_triangles) {
+    for (const BuiltinModel& model : builtin_models()) EXPECT_EQ(model.default_triangles, 1'000'000u);
+}
+
+TEST(ProceduralTest, the_models_have_the_same_bits_on_every_machine) {
+    const auto hex = [](const std::string& name) {
+        return to_hex(digest(write_blob(make(name, 10'000)).bytes()));
+    };
+    // From g++ and clang++ on x86-64. A change of a formula changes them, nothing else may.
+    EXPECT_EQ(hex("knot"), "172e620e88bcfa3779f9c75e8a8b33bbfd7a801ae826ba79256aaee2743f71bb");
+    EXPECT_EQ(hex("spheres"), "f7f256bdd47aedaa53484a6cf901c2699c488d6b6c678a1bcf9a5aef4d5b26c8");
+    EXPECT_EQ(hex("town"), "9b6f9c6d945214e758aa8fe53780333874ae5090861c8296f7dbbf4386a76b6a");
+}
+
+TEST(ProceduralTest, a_wish_out_of_the_limits_is_refused) {
+    for (const BuiltinModel& model : builtin_models())
+        for (const std::size_t wish :
+             {std::size_t{0}, std::size_t{11}, std::size_t{50'000'001}, ~std::size_t{0}}) {
+            const Result<Mesh> mesh = make_builtin(model.name, wish);
+            ASSERT_FALSE(mesh);
+            EXPECT_THAT(mesh.error().message, HasSubstr("the limits are 12 and 50000000"));
+        }
+}
+
+TEST(ProceduralTest, an_unknown_name_is_refused_with_the_list_of_names) {
+    EXPECT_EQ(make_builtin("teapot", 1000).error().message,
+              "no built-in model `teapot`, there are: knot, spheres, town");
+}
+
+TEST(ProceduralTest, the_knot_is_closed_smooth_and_of_even_triangles) {
+    const Mesh mesh = make("knot", 100'000);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    std::vector<double> areas;
+    double agreement = 1;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const std::uint32_t* corner = &mesh.indices[3 * t];
+        for (int c = 0; c < 3; ++c) ++edges[{corner[c], corner[(c + 1) % 3]}];
+        const glm::dvec3 a(mesh.vertices[corner[0]].position);
+        const glm::dvec3 across = glm::cross(glm::dvec3(mesh.vertices[corner[1]].position) - a,
+                                             glm::dvec3(mesh.vertices[corner[2]].position) - a);
+        areas.push_back(glm::length(across));
+        const auto& n = mesh.vertices[corner[0]].normal;
+        agreement =
+            std::min(agreement, glm::dot(glm::normalize(across), glm::dvec3(n[0], n[1], n[2]) / 32767.0));
+    }
+    for (const auto& [edge, count] : edges) {
+        ASSERT_EQ(count, 1);
+        ASSERT_TRUE(edges.contains({edge.second, edge.first})) << "an edge is open";
+    }
+    EXPECT_GT(agreement, 0.85) << "a normal is far from its triangle's";
+    std::sort(areas.begin(), areas.end());
+    EXPECT_LT(areas[areas.size() * 99 / 100] / areas[areas.size() / 100], 6) << "triangles are uneven";
+}
+
+TEST(ProceduralTest, triangles_face_the_way_that_their_normals_point) {
+    for (const BuiltinModel& model : builtin_models()) {
+        const Mesh mesh = make(model.name, 70'000);
+        for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+            const auto corner = [&](std::size_t c) -> const Vertex& {
+                return mesh.vertices[mesh.indices[3 * t + c]];
+            };
+            const glm::dvec3 a(corner(0).position);
+            const glm::dvec3 across =
+                glm::cross(glm::dvec3(corner(1).position) - a, glm::dvec3(corner(2).position) - a);
+            const glm::dvec3 normal(corner(0).normal[0], corner(0).normal[1], corner(0).normal[2]);
+            ASSERT_GT(glm::dot(across, normal), 0) << model.name << " triangle " << t;
+        }
+    }
+}
+
+TEST(ProceduralTest, the_spheres_lie_more_than_ten_deep_along_every_axis) {
+    const Mesh mesh = make("spheres", 70'000);
+    const Box box = bounds(mesh);
+    for (int axis = 0; axis < 3; ++axis) {
+        constexpr int kRays = 6;  // each way, in the middle third
+        int hits = 0;
+        for (int i = 0; i < kRays * kRays; ++i) {
+            const double u = 1.0 / 3 + (i % kRays + 0.5) / (3.0 * kRays);
+            const double v = 1.0 / 3 + (i / kRays + 0.5) / (3.0 * kRays);
+            const glm::dvec2 low = flat(box.min, axis);
+            const glm::dvec2 at = low + glm::dvec2(u, v) * (flat(box.max, axis) - low);
+            for (std::size_t t = 0; t < mesh.triangle_count(); ++t) hits += passes(mesh, t, axis, at) ? 1 : 0;
+        }
+        EXPECT_GT(hits, 10 * kRays * kRays) << "axis " << axis;
+    }
+}
+
+TEST(ProceduralTest, the_spheres_have_many_colours) {
+    const Mesh mesh = make("spheres", 70'000);
+    std::set<std::array<std::uint8_t, 4>> colours;
+    for (const Vertex& vertex : mesh.vertices) colours.insert(vertex.colour);
+    EXPECT_GT(colours.size(), 500u);
+}
+
+TEST(ProceduralTest, the_towns_coplanar_faces_overlap_across_objects_in_different_colours) {
+    const ObjectSet set = build_objects(make("town", 10'000), {.depth = 3, .objects = 0});
+    const Mesh& mesh = set.mesh;
+    const auto position = [&](std::size_t t, std::size_t c) {
+        return mesh.vertices[mesh.indices[3 * t + c]].position;
+    };
+    std::vector<std::size_t> owner(mesh.triangle_count());
+    for (std::size_t id = 0; id < set.objects.size(); ++id)
+        for (std::uint32_t i = 0; i < set.objects[id].triangle_count; ++i)
+            owner[set.objects[id].first_triangle + i] = id;
+
+    std::map<std::pair<int, float>, std::vector<std::size_t>> planes;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+        for (int axis = 0; axis < 3; ++axis) {
+            const float at = position(t, 0)[axis];
+            if (position(t, 1)[axis] == at && position(t, 2)[axis] == at) planes[{axis, at}].push_back(t);
+        }
+    std::array<int, 3> ties{};
+    for (const auto& [plane, triangles] : planes)
+        for (const std::size_t a : triangles) {
+            const int axis = plane.first;
+            const glm::dvec2 centre =
+                (flat(position(a, 0), axis) + flat(position(a, 1), axis) + flat(position(a, 2), axis)) / 3.0;
+            for (const std::size_t b : triangles)
+                if (owner[a] != owner[b] && passes(mesh, b, axis, centre) &&
+                    mesh.vertices[mesh.indices[3 * a]].colour != mesh.vertices[mesh.indices[3 * b]].colour)
+                    ++ties[static_cast<std::size_t>(axis)];
+        }
+    for (const int count : ties) EXPECT_GT(count, 100);
+}
+
+TEST(ProceduralTest, the_towns_faces_are_flat) {
+    const Mesh mesh = make("town", 10'000);
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+        for (std::size_t c = 1; c < 3; ++c) {
+            const Vertex& first = mesh.vertices[mesh.indices[3 * t]];
+            const Vertex& other = mesh.vertices[mesh.indices[3 * t + c]];
+            ASSERT_EQ(first.normal, other.normal);
+            ASSERT_EQ(first.colour, other.colour);
+        }
+}
+
+}  // namespace
+}  // namespace swath
