@@ -32,8 +32,10 @@ inline bool outside(const Frustum& frustum, const Box& box) {
 }
 
 // The pixels that a box can touch: the screen bounds of its eight projected corners, cut at the near plane,
-// as [floor, floor + 1) and clipped to the viewport. Empty when it cannot touch any. A box that crosses the
-// near plane gets a pixel of margin, since there rounding is magnified.
+// as [floor, floor + 1) and clipped to the viewport. Empty when it cannot touch any, also beyond the far
+// plane. Contains every pixel centre that a single-precision renderer can cover: where rounding is magnified
+// (close to the eye, far from the origin) the bounds get a margin, and boxes across the near plane at least
+// a pixel.
 Rect screen_bounds(const Box& box, const View& view);
 
 }  // namespace swath
