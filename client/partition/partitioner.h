@@ -1,0 +1,48 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "client/partition/projection.h"
+#include "common/base/ids.h"
+#include "common/base/result.h"
+#include "common/plan/frame_plan.h"
+
+namespace swath {
+
+inline constexpr std::size_t kMaxServers = 1024;
+
+// What a frame's partition is decided from. Borrows the objects for the call.
+struct PartitionInput {
+    FrameNumber frame = 0;
+    View view;                                 // at least 1x1 pixel
+    std::span<const ProjectedObject> objects;  // by ObjectId, projected with `view`; at most kMaxObjects
+    std::size_t servers = 1;                   // 1 to kMaxServers
+};
+
+// A way to divide a frame among servers. The plan is a function of the input (and of the objects that the
+// partitioner was made with) alone: an instance keeps scratch space and static parts, never decisions of an
+// earlier frame. Every plan passes problem() with the algorithm's grouping, whatever the objects; a broken
+// limit of PartitionInput throws CheckFailed. One thread at a time.
+class Partitioner {
+  public:
+    virtual ~Partitioner() = default;
+    virtual FramePlan partition(const PartitionInput& input) = 0;
+};
+
+enum class Algorithm {
+    kHybrid,    // tiles and groups from one sweep of the screen, every frame (Samanta 2000, section 5)
+    kSortLast,  // groups made once in model space, interleaved tiles (Samanta 2000, section 7.4)
+};
+
+// "hybrid", "sort-last".
+std::string_view name_of(Algorithm algorithm);
+Result<Algorithm> parse_algorithm(std::string_view name);
+Grouping grouping_of(Algorithm algorithm);
+
+// A partitioner of this model, for as long as the model lives; copies what it needs of `objects`. Every
+// PartitionInput must have the same objects.
+std::unique_ptr<Partitioner> make_partitioner(Algorithm algorithm, std::span<const Object> objects);
+
+}  // namespace swath

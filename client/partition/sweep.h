@@ -1,0 +1,59 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace swath {
+
+// Which group of a split an item went to.
+enum class Side : std::uint8_t { kNone, kLeft, kRight };
+
+// The two sweep lines' positions along the split axis.
+template <class Coordinate>
+struct SweepLines {
+    Coordinate left;
+    Coordinate right;
+};
+
+// How many servers each side of a split is for. Half on the left, rounded down.
+struct SplitServers {
+    std::size_t left;
+    std::size_t right;
+    explicit SplitServers(std::size_t servers) : left(servers / 2), right(servers - servers / 2) {}
+};
+
+// The two-line sweep that hybrid (on the screen) and sort-last (in the model) share: the side with less work
+// per server, the left one when equal, moves its line across the next item that nobody has, and gets it
+// (Samanta 2000, section 5). `from_left` and `from_right` list the same items 0..n-1, by upper end ascending
+// and by lower end descending; `sides` has n entries, all kNone, and returns the outcome. `lines` start at
+// the region's ends. Items answer upper(i), lower(i) and work(i); their work must sum to less than 2^53, so
+// that times kMaxServers it fits in 64 bits. O(n).
+template <class Coordinate, class Items>
+SweepLines<Coordinate> sweep(std::span<const std::uint32_t> from_left,
+                             std::span<const std::uint32_t> from_right, const Items& items,
+                             const SplitServers& servers, SweepLines<Coordinate> lines,
+                             std::span<Side> sides) {
+    std::uint64_t left_work = 0;
+    std::uint64_t right_work = 0;
+    std::size_t next_left = 0;
+    std::size_t next_right = 0;
+    for (std::size_t assigned = 0; assigned < sides.size(); ++assigned) {
+        // left_work / servers.left <= right_work / servers.right, without rounding
+        if (left_work * servers.right <= right_work * servers.left) {
+            while (sides[from_left[next_left]] != Side::kNone) ++next_left;
+            const std::uint32_t item = from_left[next_left++];
+            sides[item] = Side::kLeft;
+            left_work += items.work(item);
+            lines.left = items.upper(item);
+        } else {
+            while (sides[from_right[next_right]] != Side::kNone) ++next_right;
+            const std::uint32_t item = from_right[next_right++];
+            sides[item] = Side::kRight;
+            right_work += items.work(item);
+            lines.right = items.lower(item);
+        }
+    }
+    return lines;
+}
+
+}  // namespace swath
