@@ -1,0 +1,38 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.h"
+#include "common/geometry/box.h"
+#include "common/geometry/camera.h"
+
+namespace swath {
+
+struct PathOptions {
+    std::optional<std::size_t> frames;  // 1 to kMaxPathFrames; else 50 as in the paper, or all of a file's
+    std::uint64_t seed = 1;             // of `random`
+    float aspect = 4.0f / 3.0f;         // width / height of the picture
+    float zoom = 1.0f;                  // 1: the model about fills the screen; ignored for a file
+};
+inline constexpr std::size_t kDefaultPathFrames = 50;
+inline constexpr std::size_t kMaxPathFrames = 1'000'000;
+
+// The cameras of a run, by what `spec` names:
+//   orbit    once around the model at equal steps of azimuth, a little above it, as near as the whole box
+//            fits in the picture (at zoom 1)
+//   random   the path of Samanta 2000's simulations (notes/partitioning-and-simulation.md, section 2): once
+//            around, each frame at a random elevation within 0.65 rad, 0.3 rad of view, the box's longest
+//            side times `zoom` as high as the screen. The same seed gives the same bits everywhere.
+//   else     a file of cameras, see read_cameras; repeated from its start if it has fewer than `frames`
+// All have the depth range of with_depth_range(). `bounds` is the model's, not empty. Errors name the option,
+// or the file and line.
+Result<std::vector<Camera>> make_path(const std::string& spec, const Box& bounds, const PathOptions& options);
+
+// The camera with near and far planes about `bounds` as seen from there, so that nothing of it is clipped
+// in depth. From inside, or closer than that, near is a thousandth of the box's diagonal.
+Camera with_depth_range(Camera camera, const Box& bounds);
+
+}  // namespace swath
