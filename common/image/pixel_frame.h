@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/base/ids.h"
@@ -16,6 +17,22 @@ inline constexpr float kFarDepth = 1.0f;
 // id mean nothing.
 class PixelFrame {
   public:
+    PixelFrame() = default;
+    PixelFrame(PixelFrame&& from) noexcept
+        : rect_(std::exchange(from.rect_, {})),
+          capacity_(std::exchange(from.capacity_, 0)),
+          colour_(std::move(from.colour_)),
+          depth_(std::move(from.depth_)),
+          id_(std::move(from.id_)) {}
+    PixelFrame& operator=(PixelFrame&& from) noexcept {
+        rect_ = std::exchange(from.rect_, {});
+        capacity_ = std::exchange(from.capacity_, 0);
+        colour_ = std::move(from.colour_);
+        depth_ = std::move(from.depth_);
+        id_ = std::move(from.id_);
+        return *this;
+    }
+
     // The planes hold whatever they held: the owner fills them.
     void reshape(const Rect& rect);
     const Rect& rect() const { return rect_; }

@@ -23,10 +23,14 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     {"common/plan", {"common/base", "common/geometry"}},
     {"common/image", {"common/base", "common/geometry"}},
     {"common/timeline", {"common/base"}},
-    // What travels and what draws know the values, never each other.
+    {"common/cull", {"common/base", "common/geometry", "common/scene", "common/octree"}},
+    {"common/render", {"common/base", "common/geometry", "common/scene", "common/image"}},
+    // What travels are the values of the layers below.
     {"common/wire",
-     {"common/base", "common/geometry", "common/scene", "common/plan", "common/image", "common/timeline"}},
-    {"common/render", {"common/base", "common/geometry", "common/scene", "common/octree", "common/image"}},
+     {"common/base", "common/geometry", "common/scene", "common/plan", "common/image", "common/timeline",
+      "common/render"}},
+    // What the mains share.
+    {"common/program", {"common/base", "common/wire"}},
 };
 
 // Decision code of the programs, which the simulator drives too.
@@ -34,7 +38,7 @@ const std::set<std::string_view> kDecisionFolders = {"client/partition", "client
                                                      "server/swap", "display/assemble"};
 
 // Where <boost/asio.hpp> may be included: networking. Also in every main.cpp and in tests.
-const std::set<std::string_view> kAsioFolders = {"common/wire", "client/cluster", "client/launch",
+const std::set<std::string_view> kAsioFolders = {"common/wire", "common/program", "client/cluster", "client/launch",
                                                  "server/session", "display/session"};
 
 std::string_view top_of(std::string_view path) { return path.substr(0, path.find('/')); }

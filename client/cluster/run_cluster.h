@@ -1,0 +1,13 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "client/cluster/cluster_run.h"
+
+namespace swath {
+
+// Runs a job to its end on an io_context of its own; SIGINT and SIGTERM end it early with an error. Blocking.
+Result<std::vector<FrameTimeline>> run_cluster(ClusterJob job, const Clock& clock, std::function<void()> on_ready,
+                                               std::function<Status(FrameNumber, const Buffer&)> on_picture);
+
+}  // namespace swath

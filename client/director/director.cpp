@@ -1,0 +1,57 @@
+#include "client/director/director.h"
+
+#include <algorithm>
+
+namespace swath {
+
+Director::Open* Director::find(FrameNumber frame) {
+    const auto found = std::find_if(open_.begin(), open_.end(), [&](const Open& o) { return o.frame == frame; });
+    return found == open_.end() ? nullptr : &*found;
+}
+
+Director::Actions Director::on_start() { return advance(); }
+
+void Director::on_issued(FrameNumber frame, std::size_t servers) {
+    if (Open* open = find(frame)) open->reports_missing = servers;
+}
+
+Result<Director::Actions> Director::on_server_report(FrameNumber frame) {
+    if (over_) return Actions{};
+    Open* open = find(frame);
+    if (open == nullptr || open->reports_missing == 0) return fail("a report for frame {}, which awaits none", frame);
+    --open->reports_missing;
+    return advance();
+}
+
+Result<Director::Actions> Director::on_display_report(FrameNumber frame) {
+    if (over_) return Actions{};
+    Open* open = find(frame);
+    if (open == nullptr || open->displayed) return fail("a picture for frame {}, which awaits none", frame);
+    open->displayed = true;
+    ++complete_;
+    return advance();
+}
+
+Director::Actions Director::on_lost(const std::string& who, const std::string& why) {
+    if (over_) return {};
+    over_ = true;
+    return {{DirectorAction::Kind::kAbort, 0, who + ": " + why}};
+}
+
+Director::Actions Director::advance() {
+    // A frame is over when it is displayed and every server has reported: only then do all programs forget it.
+    std::erase_if(open_, [](const Open& o) { return o.displayed && o.reports_missing == 0; });
+    Actions actions;
+    while (next_ < frames_ && open_.size() < in_flight_) {
+        open_.push_back({next_, 0, false});
+        actions.push_back({DirectorAction::Kind::kIssue, next_, {}});
+        ++next_;
+    }
+    if (next_ == frames_ && open_.empty()) {
+        over_ = true;
+        actions.push_back({DirectorAction::Kind::kFinish, 0, {}});
+    }
+    return actions;
+}
+
+}  // namespace swath

@@ -1,0 +1,62 @@
+#pragma once
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/base/ids.h"
+#include "common/base/result.h"
+
+namespace swath {
+
+// What the Director wants done.
+struct DirectorAction {
+    enum class Kind {
+        kIssue,   // partition `frame` and send its tasks out
+        kFinish,  // every frame is complete and accounted for
+        kAbort,   // the run cannot go on: `reason`
+    };
+    Kind kind{};
+    FrameNumber frame = 0;
+    std::string reason;
+    bool operator==(const DirectorAction&) const = default;
+};
+
+// Decides which frame is begun next: keeps a few in flight so that client, servers and display overlap (Samanta 2000,
+// section 4), and lets the slowest of them set the rate. A lost server or display ends the run. Sans-I/O: the client
+// drives it from its sockets, the simulator from its event queue. Not thread-safe.
+class Director {
+  public:
+    // frames in all, and at most this many begun and not complete at a time (at least 1).
+    Director(std::size_t frames, std::size_t in_flight) : frames_(frames), in_flight_(in_flight) {}
+
+    using Actions = std::vector<DirectorAction>;
+
+    Actions on_start();
+    // The tasks of a frame went out to this many servers, each of which will report.
+    void on_issued(FrameNumber frame, std::size_t servers);
+    // Errors blame the sender.
+    Result<Actions> on_server_report(FrameNumber frame);
+    Result<Actions> on_display_report(FrameNumber frame);
+    Actions on_lost(const std::string& who, const std::string& why);
+
+    std::size_t complete() const { return complete_; }
+
+  private:
+    struct Open {
+        FrameNumber frame = 0;
+        std::size_t reports_missing = 0;
+        bool displayed = false;
+    };
+    Open* find(FrameNumber frame);
+    Actions advance();
+
+    std::size_t frames_;
+    std::size_t in_flight_;
+    FrameNumber next_ = 0;
+    std::size_t complete_ = 0;  // frames whose picture is whole
+    std::vector<Open> open_;
+    bool over_ = false;
+};
+
+}  // namespace swath

@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/partition/partitioner.h"
+#include "common/image/picture.h"
+#include "common/program/program.h"
+#include "common/render/renderer_kind.h"
+#include "common/scene/objects.h"
+#include "common/wire/address.h"
+
+namespace swath {
+
+// What swath-client was asked for; checked.
+struct ClientOptions {
+    std::string model;
+    bool single = false;
+    std::size_t local = 4;              // servers to start here, unless `servers` are given
+    std::vector<Address> servers;
+    std::optional<Address> display;
+    Algorithm algorithm = Algorithm::kHybrid;
+    RendererKind renderer = RendererKind::kOsmesa;
+    Granularity granularity;
+    int width = 1280;
+    int height = 960;
+    Rgb background{16, 18, 24};
+    std::optional<std::size_t> frames;
+    std::string path = "orbit";
+    std::uint64_t seed = 1;
+    double zoom = 1;
+    std::uint32_t in_flight = 3;
+    int threads = -1;                   // of Mesa, per process; -1: as fits
+    std::string out;                    // folder of pictures; empty: none
+    PictureFormat format = PictureFormat::kPng;
+    std::string timeline;               // file; empty: none
+    double connect_patience_s = 5;
+    ProgramOptions program;
+    WireTiming timing;
+};
+
+// The options, or the exit code with which the program is to end now (help or a wrong flag, already said).
+tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv);
+
+}  // namespace swath

@@ -1,0 +1,29 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "common/base/clock.h"
+#include "common/base/result.h"
+#include "common/geometry/camera.h"
+#include "common/image/picture.h"
+#include "common/render/renderer.h"
+#include "common/scene/objects.h"
+#include "common/timeline/timeline.h"
+
+namespace swath {
+
+// The reference: every frame drawn whole by one renderer in this process, without plan or network. Every cluster picture
+// equals these byte for byte. Blocking.
+struct SingleJob {
+    const ObjectSet* scene = nullptr;
+    RendererKind renderer = RendererKind::kOsmesa;
+    std::vector<Camera> cameras;
+    int width = 1280;
+    int height = 960;
+    Rgb background{};
+    PictureFormat format = PictureFormat::kNone;
+};
+Result<std::vector<FrameTimeline>> render_single(const SingleJob& job, const Clock& clock,
+                                                 const std::function<Status(FrameNumber, const Buffer&)>& on_picture);
+
+}  // namespace swath
