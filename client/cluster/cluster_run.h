@@ -14,6 +14,7 @@
 #include "common/base/result.h"
 #include "common/scene/objects.h"
 #include "common/timeline/timeline.h"
+#include "common/wire/address.h"
 #include "common/wire/connection.h"
 
 namespace swath {

@@ -1,9 +1,10 @@
 #include "client/launch/local_cluster.h"
 
+#include <fcntl.h>
+
 #include <boost/process/args.hpp>
 #include <boost/process/child.hpp>
 #include <boost/process/exe.hpp>
-#include <boost/process/handles.hpp>
 #include <boost/process/io.hpp>
 #include <boost/process/pipe.hpp>
 #include <chrono>
@@ -29,9 +30,12 @@ Result<std::unique_ptr<LocalCluster::Child>> LocalCluster::spawn(const std::file
     std::vector<std::string> all{"--listen", "127.0.0.1:0", "--lifeline"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::error_code error;
-    // Only the three standard handles: a child that held another's lifeline would keep it alive.
+    // A child that inherited another's lifeline would keep it alive.
+    for (const int fd : {child->lifeline.pipe().native_source(), child->lifeline.pipe().native_sink(),
+                         child->output.pipe().native_source(), child->output.pipe().native_sink()})
+        ::fcntl(fd, F_SETFD, FD_CLOEXEC);
     child->process = bp::child(bp::exe = program.string(), bp::args = all, bp::std_in < child->lifeline,
-                               bp::std_out > child->output, bp::limit_handles, error);
+                               bp::std_out > child->output, error);
     if (error) return fail("cannot start {}: {}", program.string(), error.message());
     return child;
 }

@@ -12,10 +12,11 @@
 namespace swath {
 
 struct PathOptions {
-    std::optional<std::size_t> frames;  // 1 to kMaxPathFrames; else 50 as in the paper, or all of a file's
-    std::uint64_t seed = 1;             // of `random`
-    float aspect = 4.0f / 3.0f;         // width / height of the picture
-    float zoom = 1.0f;                  // 1: the model about fills the screen; ignored for a file
+    // 1 to kMaxPathFrames; without, 50 as in the paper, or all of a file's cameras.
+    std::optional<std::size_t> frames = std::nullopt;
+    std::uint64_t seed = 1;      // of `random`
+    float aspect = 4.0f / 3.0f;  // width / height of the picture
+    float zoom = 1.0f;           // 1: the model about fills the screen; ignored for a file
 };
 inline constexpr std::size_t kDefaultPathFrames = 50;
 inline constexpr std::size_t kMaxPathFrames = 1'000'000;

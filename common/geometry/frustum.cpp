@@ -12,6 +12,51 @@ constexpr double kFloatLoss = 1e-6;
 // snapping) cannot reach the next one.
 constexpr double kHarmlessPixels = 0.25;
 
+// The eight corners of a box in clip space, one array a coordinate so that the compiler makes vectors of
+// them.
+struct Corners {
+    std::array<double, 8> x, y, z, w;
+};
+
+Corners project_corners(const glm::dmat4& matrix, const glm::dvec3& low, const glm::dvec3& size) {
+    const glm::dvec4 first = matrix * glm::dvec4(low, 1.0);
+    const auto corners_of = [&](glm::length_t row) {
+        const double dx = matrix[0][row] * size.x;
+        const double dy = matrix[1][row] * size.y;
+        const double dz = matrix[2][row] * size.z;
+        const double at = first[row];
+        const double up = at + dy;
+        return std::array<double, 8>{at, at + dx, up, up + dx, at + dz, at + dx + dz, up + dz, up + dx + dz};
+    };
+    return {corners_of(0), corners_of(1), corners_of(2), corners_of(3)};
+}
+
+// The bounds of projected points.
+struct Extent {
+    double low_x = 1e30;
+    double low_y = 1e30;
+    double high_x = -1e30;
+    double high_y = -1e30;
+    double nearest_w = 1e30;
+
+    void add(double x, double y, double w) {
+        const double scale = 1.0 / w;
+        low_x = std::min(low_x, x * scale);
+        low_y = std::min(low_y, y * scale);
+        high_x = std::max(high_x, x * scale);
+        high_y = std::max(high_y, y * scale);
+        nearest_w = std::min(nearest_w, w);
+    }
+};
+
+// The pixel of a normalised coordinate, moved by `shift` pixels, within [-1, pixels].
+int pixel_of(double ndc, int pixels, double shift) {
+    // Clamp before the conversion: a box near the eye projects to numbers that no int holds.
+    const double p = std::clamp((ndc * 0.5 + 0.5) * pixels + shift, -1.0, static_cast<double>(pixels));
+    const int truncated = static_cast<int>(p);
+    return truncated > p ? truncated - 1 : truncated;  // floor, which is a call on the baseline processor
+}
+
 }  // namespace
 
 Frustum make_frustum(const View& view) {
@@ -30,61 +75,45 @@ Rect screen_bounds(const Box& box, const View& view) {
     const glm::dvec4 loss = kFloatLoss * (glm::abs(matrix[0]) * reach.x + glm::abs(matrix[1]) * reach.y +
                                           glm::abs(matrix[2]) * reach.z + glm::abs(matrix[3]));
     const double depth_loss = loss.z + loss.w;
-
-    const glm::dvec3 size = high_corner - low_corner;
-    std::array<glm::dvec4, 8> clip;
-    clip[0] = matrix * glm::dvec4(low_corner, 1.0);
-    clip[1] = clip[0] + matrix[0] * size.x;
-    for (std::size_t k = 0; k < 2; ++k) clip[k + 2] = clip[k] + matrix[1] * size.y;
-    for (std::size_t k = 0; k < 4; ++k) clip[k + 4] = clip[k] + matrix[2] * size.z;
+    const Corners corners = project_corners(matrix, low_corner, high_corner - low_corner);
 
     // How far inside the near plane, or as good as inside when computed in single precision.
-    const auto inside_near = [&](const glm::dvec4& c) { return c.z + c.w + depth_loss; };
+    std::array<double, 8> inside;
     int in_front = 0;
     int beyond = 0;
-    for (const glm::dvec4& c : clip) {
-        in_front += inside_near(c) >= 0 ? 1 : 0;
-        beyond += c.z - c.w > depth_loss ? 1 : 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+        inside[k] = corners.z[k] + corners.w[k] + depth_loss;
+        in_front += inside[k] >= 0 ? 1 : 0;
+        beyond += corners.z[k] - corners.w[k] > depth_loss ? 1 : 0;
     }
     if (in_front == 0 || beyond == 8) return {};
 
-    glm::dvec2 low(1e30);
-    glm::dvec2 high(-1e30);
-    double nearest_w = 1e30;
-    const auto add = [&](const glm::dvec4& c) {
-        const glm::dvec2 ndc = glm::dvec2(c) / c.w;
-        low = glm::min(low, ndc);
-        high = glm::max(high, ndc);
-        nearest_w = std::min(nearest_w, c.w);
-    };
+    Extent extent;
     for (std::size_t k = 0; k < 8; ++k) {
-        const double d = inside_near(clip[k]);
-        if (d >= 0) add(clip[k]);
+        if (inside[k] >= 0) extent.add(corners.x[k], corners.y[k], corners.w[k]);
         if (in_front == 8) continue;
         for (const std::size_t axis : {1u, 2u, 4u}) {  // the edge from k along each axis, once
             const std::size_t m = k | axis;
-            if (m == k) continue;
-            const double e = inside_near(clip[m]);
-            if ((d >= 0) != (e >= 0)) add(clip[k] + (clip[m] - clip[k]) * (d / (d - e)));
+            if (m == k || (inside[k] >= 0) == (inside[m] >= 0)) continue;
+            const double t = inside[k] / (inside[k] - inside[m]);
+            extent.add(std::lerp(corners.x[k], corners.x[m], t), std::lerp(corners.y[k], corners.y[m], t),
+                       std::lerp(corners.w[k], corners.w[m], t));
         }
     }
     // The near plane cannot be told from the eye: the box may show anywhere.
-    if (!(nearest_w > loss.w)) return view.viewport();
+    if (!(extent.nearest_w > loss.w)) return view.viewport();
 
+    const double crossing = in_front < 8 ? 1.0 : 0.0;
     const auto margin = [&](double coordinate_loss, int pixels) {
-        const double lost = (coordinate_loss + 2 * loss.w) / nearest_w * 0.5 * pixels;
-        const double crossing = in_front < 8 ? 1.0 : 0.0;
+        const double lost = (coordinate_loss + 2 * loss.w) / extent.nearest_w * 0.5 * pixels;
         return lost > kHarmlessPixels ? std::ceil(lost) + crossing : crossing;
     };
     const double margin_x = margin(loss.x, view.width);
     const double margin_y = margin(loss.y, view.height);
-    // Clamp before the conversion: a box near the eye projects to numbers that no int holds.
-    const auto pixel = [](double ndc, int pixels, double shift) {
-        const double p = std::floor((ndc * 0.5 + 0.5) * pixels + shift);
-        return static_cast<int>(std::clamp(p, -1.0, static_cast<double>(pixels)));
-    };
-    const Rect rect{pixel(low.x, view.width, -margin_x), pixel(low.y, view.height, -margin_y),
-                    pixel(high.x, view.width, margin_x) + 1, pixel(high.y, view.height, margin_y) + 1};
+    const Rect rect{pixel_of(extent.low_x, view.width, -margin_x),
+                    pixel_of(extent.low_y, view.height, -margin_y),
+                    pixel_of(extent.high_x, view.width, margin_x) + 1,
+                    pixel_of(extent.high_y, view.height, margin_y) + 1};
     return intersect(rect, view.viewport());
 }
 

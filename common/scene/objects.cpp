@@ -12,7 +12,7 @@ namespace {
 constexpr int kCodeBits = 3 * kMaxOctreeDepth;
 constexpr double kCells = 1 << kMaxOctreeDepth;  // an axis
 
-// A triangle and the Morton code of its centroid.
+// A triangle and the Morton code of its centre.
 struct Key {
     std::uint32_t code;
     std::uint32_t triangle;
@@ -28,10 +28,10 @@ std::uint32_t spread(std::uint32_t bits) {
 }
 
 // In double the sums and quotients of floats are as good as exact, so that which side of a cell's border a
-// centroid falls on is a property of the model and not of rounding.
-std::uint32_t cell(double centroid, double min, double size) {
+// centre falls on is a property of the model and not of rounding.
+std::uint32_t cell(double centre, double min, double size) {
     if (!(size > 0)) return 0;  // a flat axis
-    const double at = (centroid - min) / size * kCells;
+    const double at = (centre - min) / size * kCells;
     return static_cast<std::uint32_t>(std::clamp(at, 0.0, kCells - 1));
 }
 
@@ -40,13 +40,12 @@ std::vector<Key> morton_keys(const Mesh& mesh, const Box& box) {
     const glm::dvec3 size = glm::dvec3(box.max) - min;
     std::vector<Key> keys(mesh.triangle_count());
     for (std::size_t t = 0; t < keys.size(); ++t) {
-        const glm::dvec3 centroid = (glm::dvec3(mesh.vertices[mesh.indices[3 * t]].position) +
-                                     glm::dvec3(mesh.vertices[mesh.indices[3 * t + 1]].position) +
-                                     glm::dvec3(mesh.vertices[mesh.indices[3 * t + 2]].position)) /
-                                    3.0;
-        keys[t].code = spread(cell(centroid.x, min.x, size.x)) |
-                       spread(cell(centroid.y, min.y, size.y)) << 1 |
-                       spread(cell(centroid.z, min.z, size.z)) << 2;
+        Box triangle;
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            triangle.extend(mesh.vertices[mesh.indices[3 * t + corner]].position);
+        const glm::dvec3 centre = 0.5 * (glm::dvec3(triangle.min) + glm::dvec3(triangle.max));
+        keys[t].code = spread(cell(centre.x, min.x, size.x)) | spread(cell(centre.y, min.y, size.y)) << 1 |
+                       spread(cell(centre.z, min.z, size.z)) << 2;
         keys[t].triangle = static_cast<std::uint32_t>(t);
     }
     return keys;

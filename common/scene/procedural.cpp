@@ -174,24 +174,27 @@ void add_sphere(Mesh& mesh, const glm::dvec3& centre, double radius, const Colou
     }
 }
 
-// A cube of 11 x 11 x 11 spheres of many sizes, each a little off its place: a line along an axis meets about
-// fifteen surfaces. Fewer spheres where there are fewer than 48 triangles for each.
+// A cube of 11 x 11 x 11 spheres of many sizes, each anywhere in its cell, so that no line along an axis
+// slips through between them: it meets about fifteen surfaces. Fewer spheres where there are fewer than 48
+// triangles for each.
 Mesh make_spheres(std::size_t triangles) {
     std::size_t side = 11;
     while (side > 1 && side * side * side * 48 > triangles) --side;
     const double each = static_cast<double>(triangles) / static_cast<double>(side * side * side);
-    // The grid of a sphere whose number of triangles is the closest, among those of even proportions.
+    // The grid of a sphere: close to that number of triangles, and about twice as many slices as stacks,
+    // since a sphere of few stacks is a thin double cone.
     std::size_t best_slices = 6;
     std::size_t best_stacks = 2;
     double best = 1e300;
-    const std::size_t likely = rounded(std::sqrt(each / 4));
-    for (std::size_t stacks = std::max<std::size_t>(2, likely - std::min<std::size_t>(likely, 2));
-         stacks <= likely + 3; ++stacks) {
+    const std::size_t likely = std::max<std::size_t>(4, rounded(std::sqrt(each / 4)));
+    for (std::size_t stacks = likely - 2; stacks <= likely + 3; ++stacks) {
         const std::size_t slices =
             std::max<std::size_t>(3, rounded(each / static_cast<double>(2 * (stacks - 1))));
-        const double error = std::abs(static_cast<double>(2 * slices * (stacks - 1)) - each);
-        if (error < best) {
-            best = error;
+        const double error = std::abs(static_cast<double>(2 * slices * (stacks - 1)) / each - 1);
+        const double thinness = std::abs(static_cast<double>(slices) / static_cast<double>(2 * stacks) - 1);
+        const double badness = error + 0.05 * thinness;
+        if (badness < best) {
+            best = badness;
             best_slices = slices;
             best_stacks = stacks;
         }
@@ -208,7 +211,7 @@ Mesh make_spheres(std::size_t triangles) {
         const glm::dvec3 jitter(random(seed, 0), random(seed, 1), random(seed, 2));
         const double radius = 0.38 + 0.2 * random(seed, 3);
         const glm::dvec3 paint = palette(random(seed, 4)) * (0.7 + 0.4 * random(seed, 5));
-        add_sphere(mesh, place + 0.4 * (jitter - 0.5), radius, colour(paint), best_slices, best_stacks);
+        add_sphere(mesh, place + (jitter - 0.5), radius, colour(paint), best_slices, best_stacks);
     }
     return mesh;
 }
@@ -276,7 +279,7 @@ void add_house(TownBuilder& town, double x, double z, double height, std::size_t
 
 // Houses wall to wall; their bottoms lie on the block's paving, that on the town's ground; across each of the
 // four fronts hangs a banner in the plane of the walls. All of these coincide and have different colours, and
-// the large ones have their centroids, and so their octree cells, far from much of what they coincide with.
+// the large ones have their centres, and so their octree cells, far from much of what they coincide with.
 void add_block(TownBuilder& town, std::size_t column, std::size_t row, std::size_t n) {
     const auto x0 = static_cast<double>(column * kPitch);
     const auto z0 = static_cast<double>(row * kPitch);
