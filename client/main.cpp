@@ -24,7 +24,8 @@
 namespace swath {
 namespace {
 
-// Several processes share this machine's cores: each draws with its own thread and as many more as are left over.
+// Several processes share this machine's cores: each draws with its own thread and as many more as are left
+// over.
 std::string mesa_threads(const ClientOptions& options) {
     if (options.threads >= 0) return std::to_string(options.threads);
     const std::size_t processes = options.single ? 1 : options.local;
@@ -35,7 +36,8 @@ Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) 
     LocalCluster::Options local;
     local.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     local.servers = options.local;
-    local.arguments = {"--quiet", "--silence-ms", std::to_string(options.timing.silence_limit / std::chrono::milliseconds(1))};
+    local.arguments = {"--quiet", "--silence-ms",
+                       std::to_string(options.timing.silence_limit / std::chrono::milliseconds(1))};
     if (options.threads >= 0 || std::getenv("LP_NUM_THREADS") == nullptr)
         local.server_arguments = {"--threads", mesa_threads(options)};
     return LocalCluster::start(local);
@@ -53,10 +55,12 @@ Status run(const ClientOptions& options) {
     if (!mesh) return tl::unexpected(mesh.error());
     Buffer blob = options.single ? Buffer() : write_blob(*mesh);
     const ObjectSet scene = build_objects(std::move(*mesh), options.granularity);
-    spdlog::info("{}: {} triangles in {} objects (octree depth {}), {:.2f} s", options.model, scene.mesh.triangle_count(),
-                 scene.objects.size(), scene.depth, std::chrono::duration<double>(clock.now() - begin).count());
+    spdlog::info("{}: {} triangles in {} objects (octree depth {}), {:.2f} s", options.model,
+                 scene.mesh.triangle_count(), scene.objects.size(), scene.depth,
+                 std::chrono::duration<double>(clock.now() - begin).count());
 
-    PathOptions path{options.frames, options.seed, static_cast<float>(options.width) / static_cast<float>(options.height),
+    PathOptions path{options.frames, options.seed,
+                     static_cast<float>(options.width) / static_cast<float>(options.height),
                      static_cast<float>(options.zoom)};
     auto cameras = make_path(options.path, scene.bounds, path);
     if (!cameras) return tl::unexpected(cameras.error());
@@ -87,7 +91,8 @@ Status run(const ClientOptions& options) {
             job.display = local->display();
         }
         // Servers elsewhere look for the file under the path that it has here.
-        job.model = is_builtin(options.model) ? options.model : std::filesystem::absolute(options.model).string();
+        job.model =
+            is_builtin(options.model) ? options.model : std::filesystem::absolute(options.model).string();
         job.scene = &scene;
         job.blob = std::move(blob);
         job.renderer = options.renderer;
@@ -99,20 +104,25 @@ Status run(const ClientOptions& options) {
         job.format = options.format;
         job.frames_in_flight = options.in_flight;
         job.session = std::uint64_t{std::random_device{}()} << 32 | std::random_device{}();
-        job.connect_patience = std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(options.connect_patience_s));
+        job.connect_patience = std::chrono::duration_cast<Nanoseconds>(
+            std::chrono::duration<double>(options.connect_patience_s));
         job.timing = options.timing;
         const std::size_t servers = job.servers.size();
-        frames = run_cluster(std::move(job), clock,
-                             [&] { spdlog::info("{} servers and the display are ready after {:.2f} s", servers,
-                                                std::chrono::duration<double>(clock.now() - begin).count()); },
-                             on_picture);
+        frames = run_cluster(
+            std::move(job), clock,
+            [&] {
+                spdlog::info("{} servers and the display are ready after {:.2f} s", servers,
+                             std::chrono::duration<double>(clock.now() - begin).count());
+            },
+            on_picture);
     }
     if (!frames) return tl::unexpected(frames.error());
 
     std::cout << to_text(summarise(*frames));
     if (!options.timeline.empty()) {
         if (const auto status = save_timeline(options.timeline, *frames); !status) return status;
-        std::cout << "timeline: " << options.timeline << (options.timeline.ends_with(".json") ? " (open it in ui.perfetto.dev)\n" : "\n");
+        std::cout << "timeline: " << options.timeline
+                  << (options.timeline.ends_with(".json") ? " (open it in ui.perfetto.dev)\n" : "\n");
     }
     if (!options.out.empty()) std::cout << "pictures: " << frames->size() << " in " << options.out << "/\n";
     return {};

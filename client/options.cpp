@@ -16,8 +16,8 @@ Status parse_size(const std::string& text, int& width, int& height) {
     const auto first = std::from_chars(text.data(), end, width);
     if (first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x') {
         const auto second = std::from_chars(first.ptr + 1, end, height);
-        if (second.ec == std::errc{} && second.ptr == end && width >= 1 && height >= 1 && width <= kMaxPictureSide &&
-            height <= kMaxPictureSide)
+        if (second.ec == std::errc{} && second.ptr == end && width >= 1 && height >= 1 &&
+            width <= kMaxPictureSide && height <= kMaxPictureSide)
             return {};
     }
     return fail("--size: '{}': expected WxH, each from 1 to {}", text, kMaxPictureSide);
@@ -29,13 +29,15 @@ Status parse_colour(const std::string& text, Rgb& colour) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
     if (text.size() != 6 || error != std::errc{} || end != text.data() + text.size())
         return fail("--background: '{}': expected six hexadecimal digits, RRGGBB", text);
-    colour = {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
+    colour = {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8),
+              static_cast<std::uint8_t>(value)};
     return {};
 }
 
 std::string builtin_list() {
     std::string list;
-    for (const BuiltinModel& model : builtin_models()) list += fmt::format("  builtin:{:10} {}\n", model.name, model.what);
+    for (const BuiltinModel& model : builtin_models())
+        list += fmt::format("  builtin:{:10} {}\n", model.name, model.what);
     return list;
 }
 
@@ -53,40 +55,64 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     int depth = 0;
     std::size_t frames = 0;
 
-    CLI::App app{"swath-client: renders a large polygon model on a cluster without GPUs. Every frame it divides screen and model\n"
-                 "among the servers, which draw, swap pixels and send their tiles to the display.\n"};
-    app.add_option("MODEL", options.model, "a PLY, OBJ, STL, glTF, ... file, or builtin:NAME[:TRIANGLES] (see below)")->required();
-    auto* local = app.add_option("--local", options.local, "start a display and this many servers on this machine [4]")
-                      ->check(CLI::Range(std::size_t{1}, kMaxLocalServers));
-    auto* remote = app.add_option("--servers", servers, "HOST:PORT,... of running swath-server programs")->delimiter(',');
+    CLI::App app{
+        "swath-client: renders a large polygon model on a cluster without GPUs. Every frame it divides "
+        "screen and model\n"
+        "among the servers, which draw, swap pixels and send their tiles to the display.\n"};
+    app.add_option("MODEL", options.model,
+                   "a PLY, OBJ, STL, glTF, ... file, or builtin:NAME[:TRIANGLES] (see below)")
+        ->required();
+    auto* local =
+        app.add_option("--local", options.local, "start a display and this many servers on this machine [4]")
+            ->check(CLI::Range(std::size_t{1}, kMaxLocalServers));
+    auto* remote = app.add_option("--servers", servers, "HOST:PORT,... of running swath-server programs")
+                       ->delimiter(',');
     auto* remote_display = app.add_option("--display", display, "HOST:PORT of a running swath-display");
-    auto* single = app.add_flag("--single", options.single, "render here, in one process: the reference picture");
+    auto* single =
+        app.add_flag("--single", options.single, "render here, in one process: the reference picture");
     remote->needs(remote_display)->excludes(local)->excludes(single);
     remote_display->needs(remote);
     single->excludes(local);
-    app.add_option("--algorithm", algorithm, "how to divide a frame: hybrid or sort-last")->capture_default_str();
-    app.add_option("--renderer", renderer, "osmesa, or egl (surfaceless)")->capture_default_str()->check(CLI::IsMember({"osmesa", "egl"}));
-    auto* objects = app.add_option("--objects", options.granularity.objects, "cut the model into about this many objects [1500]")
+    app.add_option("--algorithm", algorithm, "how to divide a frame: hybrid or sort-last")
+        ->capture_default_str();
+    app.add_option("--renderer", renderer, "osmesa, or egl (surfaceless)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"osmesa", "egl"}));
+    auto* objects = app.add_option("--objects", options.granularity.objects,
+                                   "cut the model into about this many objects [1500]")
                         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
-    auto* octree = app.add_option("--octree-depth", depth, "... or by an octree of this depth")->check(CLI::Range(0, kMaxOctreeDepth));
+    auto* octree = app.add_option("--octree-depth", depth, "... or by an octree of this depth")
+                       ->check(CLI::Range(0, kMaxOctreeDepth));
     octree->excludes(objects);
     app.add_option("--size", size, "of the picture in pixels")->capture_default_str();
     app.add_option("--background", background, "colour behind the model, RRGGBB")->capture_default_str();
     auto* frame_count = app.add_option("--frames", frames, "how many [50, or all of a camera file]")
                             ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
-    app.add_option("--path", options.path, "of the camera: orbit, random (seeded, as in the paper), or a FILE with a camera a line")
+    app.add_option("--path", options.path,
+                   "of the camera: orbit, random (seeded, as in the paper), or a FILE with a camera a line")
         ->capture_default_str();
     app.add_option("--seed", options.seed, "of the random path")->capture_default_str();
-    app.add_option("--zoom", options.zoom, "1: the model about fills the picture")->capture_default_str()->check(CLI::Range(0.01, 100.0));
-    app.add_option("--in-flight", options.in_flight, "frames begun and not complete at a time")->capture_default_str()->check(CLI::Range(1, 8));
-    app.add_option("--threads", options.threads, "raster threads that Mesa adds in each process [what the cores allow]")->check(CLI::Range(0, 256));
+    app.add_option("--zoom", options.zoom, "1: the model about fills the picture")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 100.0));
+    app.add_option("--in-flight", options.in_flight, "frames begun and not complete at a time")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 8));
+    app.add_option("--threads", options.threads,
+                   "raster threads that Mesa adds in each process [what the cores allow]")
+        ->check(CLI::Range(0, 256));
     app.add_option("--out", options.out, "folder for the pictures, frame_0000.png and so on [none are kept]");
-    app.add_option("--format", format, "of the pictures: png (exact) or jpeg")->capture_default_str()->check(CLI::IsMember({"png", "jpeg"}));
-    app.add_option("--timeline", options.timeline, "what every machine did when: FILE.csv, or FILE.json for ui.perfetto.dev");
-    app.add_option("--connect-s", options.connect_patience_s, "how long to try to reach servers and display")->capture_default_str()->check(CLI::Range(0.1, 3600.0));
+    app.add_option("--format", format, "of the pictures: png (exact) or jpeg")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"png", "jpeg"}));
+    app.add_option("--timeline", options.timeline,
+                   "what every machine did when: FILE.csv, or FILE.json for ui.perfetto.dev");
+    app.add_option("--connect-s", options.connect_patience_s, "how long to try to reach servers and display")
+        ->capture_default_str()
+        ->check(CLI::Range(0.1, 3600.0));
     add_program_options(app, options.program, options.timing);
-    app.footer("\nBuilt-in models, about a million triangles each unless :TRIANGLES says otherwise:\n" + builtin_list() +
-               "\nExit codes: 0 done, 1 failed, 2 wrong usage.");
+    app.footer("\nBuilt-in models, about a million triangles each unless :TRIANGLES says otherwise:\n" +
+               builtin_list() + "\nExit codes: 0 done, 1 failed, 2 wrong usage.");
     if (const auto code = parse_options(app, argc, argv)) return tl::unexpected(*code);
 
     const auto refuse = [](const Error& error) { return tl::unexpected(usage_error(error)); };
@@ -98,16 +124,21 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     if (renderer == "egl") options.renderer = RendererKind::kEgl;
     if (octree->count() > 0) options.granularity.depth = depth;
     if (frame_count->count() > 0) options.frames = frames;
-    options.format = options.out.empty() ? PictureFormat::kNone : format == "jpeg" ? PictureFormat::kJpeg : PictureFormat::kPng;
-    if (!options.timeline.empty() && !options.timeline.ends_with(".csv") && !options.timeline.ends_with(".json"))
-        return refuse({fmt::format("--timeline: '{}': the name must end in .csv or .json", options.timeline)});
+    options.format = options.out.empty() ? PictureFormat::kNone
+                     : format == "jpeg"  ? PictureFormat::kJpeg
+                                         : PictureFormat::kPng;
+    if (!options.timeline.empty() && !options.timeline.ends_with(".csv") &&
+        !options.timeline.ends_with(".json"))
+        return refuse(
+            {fmt::format("--timeline: '{}': the name must end in .csv or .json", options.timeline)});
     for (const std::string& text : servers) {
         const auto address = parse_address(text);
         if (!address) return refuse({"--servers: " + address.error().message});
         options.servers.push_back(*address);
     }
     if (options.servers.size() > kMaxServers)
-        return refuse({fmt::format("--servers: {} addresses, the limit is {}", options.servers.size(), kMaxServers)});
+        return refuse(
+            {fmt::format("--servers: {} addresses, the limit is {}", options.servers.size(), kMaxServers)});
     if (!display.empty()) {
         const auto address = parse_address(display);
         if (!address) return refuse({"--display: " + address.error().message});

@@ -16,7 +16,7 @@ namespace swath {
 struct ClientOptions {
     std::string model;
     bool single = false;
-    std::size_t local = 4;              // servers to start here, unless `servers` are given
+    std::size_t local = 4;  // servers to start here, unless `servers` are given
     std::vector<Address> servers;
     std::optional<Address> display;
     Algorithm algorithm = Algorithm::kHybrid;
@@ -30,10 +30,10 @@ struct ClientOptions {
     std::uint64_t seed = 1;
     double zoom = 1;
     std::uint32_t in_flight = 3;
-    int threads = -1;                   // of Mesa, per process; -1: as fits
-    std::string out;                    // folder of pictures; empty: none
+    int threads = -1;  // of Mesa, per process; -1: as fits
+    std::string out;   // folder of pictures; empty: none
     PictureFormat format = PictureFormat::kPng;
-    std::string timeline;               // file; empty: none
+    std::string timeline;  // file; empty: none
     double connect_patience_s = 5;
     ProgramOptions program;
     WireTiming timing;

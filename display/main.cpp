@@ -8,11 +8,15 @@ int main(int argc, char** argv) {
     std::string listen = "127.0.0.1:4100";
     ProgramOptions program;
 
-    CLI::App app{"swath-display: the display of Swath. It waits for a swath-client, assembles the tiles that the servers send\n"
-                 "into pictures, encodes them as the client asks (PNG, JPEG or not at all) and tells it when each is\n"
-                 "complete. Then it waits for the next client.\n"};
-    app.add_option("--listen", listen, "HOST:PORT to listen on; port 0 takes a free one. There is no authentication: listen\n"
-                                       "beyond loopback only in a network you trust")->capture_default_str();
+    CLI::App app{
+        "swath-display: the display of Swath. It waits for a swath-client, assembles the tiles that the "
+        "servers send\n"
+        "into pictures, encodes them as the client asks (PNG, JPEG or not at all) and tells it when each is\n"
+        "complete. Then it waits for the next client.\n"};
+    app.add_option("--listen", listen,
+                   "HOST:PORT to listen on; port 0 takes a free one. There is no authentication: listen\n"
+                   "beyond loopback only in a network you trust")
+        ->capture_default_str();
     add_program_options(app, program, options.timing);
     if (const auto code = parse_options(app, argc, argv)) return *code;
     start_log("swath-display", program);

@@ -17,15 +17,24 @@ int main(int argc, char** argv) {
     int threads = -1;
     ProgramOptions program;
 
-    CLI::App app{"swath-server: a render server of Swath. It waits for a swath-client, loads the model that the client names\n"
-                 "(from this machine, its cache, or the client), draws its share of every frame with a software OpenGL,\n"
-                 "swaps pixels with the other servers and sends its tile to the display. Then it waits for the next client.\n"};
-    app.add_option("--listen", listen, "HOST:PORT to listen on; port 0 takes a free one. There is no authentication: listen\n"
-                                       "beyond loopback only in a network you trust")->capture_default_str();
+    CLI::App app{
+        "swath-server: a render server of Swath. It waits for a swath-client, loads the model that the "
+        "client names\n"
+        "(from this machine, its cache, or the client), draws its share of every frame with a software "
+        "OpenGL,\n"
+        "swaps pixels with the other servers and sends its tile to the display. Then it waits for the next "
+        "client.\n"};
+    app.add_option("--listen", listen,
+                   "HOST:PORT to listen on; port 0 takes a free one. There is no authentication: listen\n"
+                   "beyond loopback only in a network you trust")
+        ->capture_default_str();
     app.add_option("--cache", cache, "folder for models that clients send")->capture_default_str();
     app.add_option("--max-model-mib", "largest model that a client may send, in MiB [8192]")
-        ->check(CLI::Range(1, 1 << 24))->each([&](const std::string& v) { options.max_model_bytes = std::stoull(v) << 20; });
-    app.add_option("--threads", threads, "threads that Mesa adds for rasterising; 0: the drawing thread alone [LP_NUM_THREADS, else one per core]")
+        ->check(CLI::Range(1, 1 << 24))
+        ->each([&](const std::string& v) { options.max_model_bytes = std::stoull(v) << 20; });
+    app.add_option("--threads", threads,
+                   "threads that Mesa adds for rasterising; 0: the drawing thread alone [LP_NUM_THREADS, "
+                   "else one per core]")
         ->check(CLI::Range(0, 256));
     add_program_options(app, program, options.timing);
     if (const auto code = parse_options(app, argc, argv)) return *code;

@@ -18,12 +18,19 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
       model_triangles_(job_.scene->mesh.triangle_count()),
       director_(job_.cameras.size(), job_.frames_in_flight) {
     for (std::size_t i = 0; i < job_.servers.size(); ++i)
-        peers_.push_back({fmt::format("server {} at {}", i, to_string(job_.servers[i])), Role::kServer, {}, false, false, false});
-    peers_.push_back({fmt::format("display at {}", to_string(job_.display)), Role::kDisplay, {}, false, false, false});
+        peers_.push_back({fmt::format("server {} at {}", i, to_string(job_.servers[i])),
+                          Role::kServer,
+                          {},
+                          false,
+                          false,
+                          false});
+    peers_.push_back(
+        {fmt::format("display at {}", to_string(job_.display)), Role::kDisplay, {}, false, false, false});
 }
 
 void ClusterRun::start() {
-    for (std::size_t i = 0; i < peers_.size(); ++i) connect(i, i < job_.servers.size() ? job_.servers[i] : job_.display);
+    for (std::size_t i = 0; i < peers_.size(); ++i)
+        connect(i, i < job_.servers.size() ? job_.servers[i] : job_.display);
 }
 
 void ClusterRun::stop() {
@@ -47,28 +54,34 @@ void ClusterRun::finish(Result<std::vector<FrameTimeline>> result) {
 // --- connecting and setting up
 
 void ClusterRun::connect(std::size_t i, const Address& address) {
-    async_connect(io_, address, job_.connect_patience, [self = shared_from_this(), i](Result<boost::asio::ip::tcp::socket> socket) {
-        if (self->over_) return;
-        if (!socket) return self->lost(i, socket.error().message);
-        Connection::Options options;
-        options.hello.role = Role::kClient;
-        options.timing = self->job_.timing;
-        Peer& peer = self->peers_[i];
-        peer.connection = std::make_shared<Connection>(std::move(*socket), options, self->clock_);
-        peer.connection->start({[self, i](const Hello& hello) -> Status {
-                                    Peer& greeter = self->peers_[i];
-                                    if (hello.role != greeter.role)
-                                        return fail("this is a {}, a {} is expected", name(hello.role), name(greeter.role));
-                                    greeter.greeted = true;
-                                    if (std::all_of(self->peers_.begin(), self->peers_.end(), [](const Peer& p) { return p.greeted; }))
-                                        self->set_up();
-                                    return {};
-                                },
-                                [self, i](Message&& message, Buffer&& body) {
-                                    return self->on_message(i, std::move(message), std::move(body));
-                                },
-                                [self, i](const Status& why) { self->lost(i, why ? "ended the session" : why.error().message); }});
-    });
+    async_connect(
+        io_, address, job_.connect_patience,
+        [self = shared_from_this(), i](Result<boost::asio::ip::tcp::socket> socket) {
+            if (self->over_) return;
+            if (!socket) return self->lost(i, socket.error().message);
+            Connection::Options options;
+            options.hello.role = Role::kClient;
+            options.timing = self->job_.timing;
+            Peer& peer = self->peers_[i];
+            peer.connection = std::make_shared<Connection>(std::move(*socket), options, self->clock_);
+            peer.connection->start({[self, i](const Hello& hello) -> Status {
+                                        Peer& greeter = self->peers_[i];
+                                        if (hello.role != greeter.role)
+                                            return fail("this is a {}, a {} is expected", name(hello.role),
+                                                        name(greeter.role));
+                                        greeter.greeted = true;
+                                        if (std::all_of(self->peers_.begin(), self->peers_.end(),
+                                                        [](const Peer& p) { return p.greeted; }))
+                                            self->set_up();
+                                        return {};
+                                    },
+                                    [self, i](Message&& message, Buffer&& body) {
+                                        return self->on_message(i, std::move(message), std::move(body));
+                                    },
+                                    [self, i](const Status& why) {
+                                        self->lost(i, why ? "ended the session" : why.error().message);
+                                    }});
+        });
 }
 
 void ClusterRun::set_up() {
@@ -85,15 +98,17 @@ void ClusterRun::set_up() {
     const auto servers = static_cast<std::uint32_t>(job_.servers.size());
     for (std::size_t i = 0; i < peers_.size(); ++i) {
         setup.server = server_id(i < servers ? i : 0);
-        const Status status = i < servers ? offer(peers_[i], setup)
-                                          : offer(peers_[i], DisplaySetup{job_.session, servers, job_.format, job_.frames_in_flight});
+        const Status status =
+            i < servers
+                ? offer(peers_[i], setup)
+                : offer(peers_[i], DisplaySetup{job_.session, servers, job_.format, job_.frames_in_flight});
         if (!status) return lost(i, status.error().message);
     }
 }
 
-Status ClusterRun::offer(const Peer& peer, const Message& message) {
-    if (!peer.connection->offer(message)) return fail("does not read: its send queue is full");
-    return {};
+Status ClusterRun::offer(const Peer& peer, const Message& message, Buffer body) {
+    const auto sent = peer.connection->offer(message, std::move(body));
+    return sent ? Status{} : tl::unexpected(sent.error());
 }
 
 Status ClusterRun::on_message(std::size_t i, Message&& message, Buffer&& body) {
@@ -103,31 +118,35 @@ Status ClusterRun::on_message(std::size_t i, Message&& message, Buffer&& body) {
     if (const auto* ready = std::get_if<Ready>(&message)) return on_ready(peer, *ready);
     if (std::holds_alternative<Connected>(message)) {
         peer.connected = true;
-        if (started_ || !std::all_of(peers_.begin(), peers_.end(), [](const Peer& p) { return p.role == Role::kDisplay || p.connected; }))
+        if (started_ || !std::all_of(peers_.begin(), peers_.end(),
+                                     [](const Peer& p) { return p.role == Role::kDisplay || p.connected; }))
             return {};
         started_ = true;
         handlers_.on_ready();
         return run(director_.on_start());
     }
-    if (const auto* report = std::get_if<ServerReport>(&message); report != nullptr && peer.role == Role::kServer)
+    if (const auto* report = std::get_if<ServerReport>(&message);
+        report != nullptr && peer.role == Role::kServer)
         return on_report(i, *report, body);
-    if (const auto* report = std::get_if<DisplayReport>(&message); report != nullptr && peer.role == Role::kDisplay)
+    if (const auto* report = std::get_if<DisplayReport>(&message);
+        report != nullptr && peer.role == Role::kDisplay)
         return on_report(i, *report, body);
     return fail("{} is not expected from a {}", name(message), name(peer.role));
 }
 
 Status ClusterRun::send_model_part(const Peer& peer, std::uint64_t offset) {
     if (offset >= job_.blob.size()) return fail("NeedModel: offset {} of {}", offset, job_.blob.size());
-    const std::size_t bytes = std::min<std::size_t>(kModelPartBytes, job_.blob.size() - static_cast<std::size_t>(offset));
+    const std::size_t bytes =
+        std::min<std::size_t>(kModelPartBytes, job_.blob.size() - static_cast<std::size_t>(offset));
     Buffer body(bytes);
     std::memcpy(body.data(), job_.blob.data() + offset, bytes);
-    if (!peer.connection->offer(ModelPart{offset}, std::move(body))) return fail("does not read: its send queue is full");
-    return {};
+    return offer(peer, ModelPart{offset}, std::move(body));
 }
 
 Status ClusterRun::on_ready(Peer& peer, const Ready& ready) {
     if (peer.role == Role::kServer && ready.objects != job_.scene->objects.size())
-        return fail("cut the model into {} objects, this client into {}", ready.objects, job_.scene->objects.size());
+        return fail("cut the model into {} objects, this client into {}", ready.objects,
+                    job_.scene->objects.size());
     peer.ready = true;
     if (!std::all_of(peers_.begin(), peers_.end(), [](const Peer& p) { return p.ready; })) return {};
     for (const Peer& p : peers_)
@@ -154,10 +173,13 @@ Status ClusterRun::run(const Director::Actions& actions) {
                 }
                 break;
             case DirectorAction::Kind::kFinish:
-                std::sort(timelines_.begin(), timelines_.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
+                std::sort(timelines_.begin(), timelines_.end(),
+                          [](const auto& a, const auto& b) { return a.frame < b.frame; });
                 finish(std::move(timelines_));
                 break;
-            case DirectorAction::Kind::kAbort: finish(fail("{}", action.reason)); break;
+            case DirectorAction::Kind::kAbort:
+                finish(fail("{}", action.reason));
+                break;
         }
     }
     return {};
@@ -192,18 +214,22 @@ Status ClusterRun::issue(FrameNumber number) {
     frame.timeline.machines.resize(1 + peers_.size());
     frame.timeline.machines[0].machine = "client";
     for (std::size_t i = 0; i < peers_.size(); ++i)
-        frame.timeline.machines[1 + i].machine = peers_[i].role == Role::kDisplay ? "display" : server_name(server_id(i));
+        frame.timeline.machines[1 + i].machine =
+            peers_[i].role == Role::kDisplay ? "display" : server_name(server_id(i));
 
     // A server without pixels takes no part in the frame.
     std::size_t working = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         if (tasks[i].content.empty() && tasks[i].final_region.empty()) continue;
         ++working;
-        if (const auto status = offer(peers_[i], tasks[i]); !status) return fail_in(peers_[i].who, status.error());
+        if (const auto status = offer(peers_[i], tasks[i]); !status)
+            return fail_in(peers_[i].who, status.error());
     }
-    if (const auto status = offer(peers_.back(), assemble); !status) return fail_in(peers_.back().who, status.error());
+    if (const auto status = offer(peers_.back(), assemble); !status)
+        return fail_in(peers_.back().who, status.error());
     frame.missing = working + 1;
-    frame.timeline.machines[0].spans.push_back({Phase::kPartition, begin, clock_.now(), clock_.thread_cpu() - cpu_begin});
+    frame.timeline.machines[0].spans.push_back(
+        {Phase::kPartition, begin, clock_.now(), clock_.thread_cpu() - cpu_begin});
     director_.on_issued(number, working);
     return {};
 }

@@ -34,19 +34,19 @@ struct ClusterJob {
     Rgb background{};
     PictureFormat format = PictureFormat::kNone;
     std::uint32_t frames_in_flight = 3;
-    std::uint64_t session = 0;                                // a random number
+    std::uint64_t session = 0;  // a random number
     Nanoseconds connect_patience = std::chrono::seconds(5);
     WireTiming timing;
 };
 
-// Drives servers and a display through a job: connects, sets up, partitions frame by frame, and gathers what every machine
-// did. It does what the Director decides. Single-threaded, on the io_context.
+// Drives servers and a display through a job: connects, sets up, partitions frame by frame, and gathers what
+// every machine did. It does what the Director decides. Single-threaded, on the io_context.
 class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
   public:
     struct Handlers {
-        std::function<void()> on_ready;                                          // every machine is set up
-        std::function<Status(FrameNumber, const Buffer& picture)> on_picture;    // encoded; empty if no format
-        std::function<void(Result<std::vector<FrameTimeline>>)> on_done;         // once, last
+        std::function<void()> on_ready;                                        // every machine is set up
+        std::function<Status(FrameNumber, const Buffer& picture)> on_picture;  // encoded; empty if no format
+        std::function<void(Result<std::vector<FrameTimeline>>)> on_done;       // once, last
     };
 
     ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock& clock, Handlers handlers);
@@ -76,7 +76,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Status on_report(std::size_t peer, const Report& report, const Buffer& body);
     Status run(const Director::Actions& actions);
     Status issue(FrameNumber frame);
-    Status offer(const Peer& peer, const Message& message);
+    Status offer(const Peer& peer, const Message& message, Buffer body = {});
     void lost(std::size_t peer, const std::string& why);
     void finish(Result<std::vector<FrameTimeline>> result);
 

@@ -5,17 +5,19 @@
 
 namespace swath {
 
-Result<std::vector<FrameTimeline>> run_cluster(ClusterJob job, const Clock& clock, std::function<void()> on_ready,
+Result<std::vector<FrameTimeline>> run_cluster(ClusterJob job, const Clock& clock,
+                                               std::function<void()> on_ready,
                                                std::function<Status(FrameNumber, const Buffer&)> on_picture) {
     boost::asio::io_context io(1);
     Result<std::vector<FrameTimeline>> result = fail("the run did not end");
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
-    const auto run = std::make_shared<ClusterRun>(io, std::move(job), clock,
-                                                  ClusterRun::Handlers{std::move(on_ready), std::move(on_picture),
-                                                                       [&](Result<std::vector<FrameTimeline>> done) {
-                                                                           result = std::move(done);
-                                                                           signals.cancel();
-                                                                       }});
+    const auto run =
+        std::make_shared<ClusterRun>(io, std::move(job), clock,
+                                     ClusterRun::Handlers{std::move(on_ready), std::move(on_picture),
+                                                          [&](Result<std::vector<FrameTimeline>> done) {
+                                                              result = std::move(done);
+                                                              signals.cancel();
+                                                          }});
     signals.async_wait([&](const boost::system::error_code& error, int) {
         if (error) return;
         run->stop();

@@ -7,7 +7,8 @@
 namespace swath {
 
 // Runs a job to its end on an io_context of its own; SIGINT and SIGTERM end it early with an error. Blocking.
-Result<std::vector<FrameTimeline>> run_cluster(ClusterJob job, const Clock& clock, std::function<void()> on_ready,
+Result<std::vector<FrameTimeline>> run_cluster(ClusterJob job, const Clock& clock,
+                                               std::function<void()> on_ready,
                                                std::function<Status(FrameNumber, const Buffer&)> on_picture);
 
 }  // namespace swath

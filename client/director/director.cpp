@@ -5,7 +5,8 @@
 namespace swath {
 
 Director::Open* Director::find(FrameNumber frame) {
-    const auto found = std::find_if(open_.begin(), open_.end(), [&](const Open& o) { return o.frame == frame; });
+    const auto found =
+        std::find_if(open_.begin(), open_.end(), [&](const Open& o) { return o.frame == frame; });
     return found == open_.end() ? nullptr : &*found;
 }
 
@@ -18,7 +19,8 @@ void Director::on_issued(FrameNumber frame, std::size_t servers) {
 Result<Director::Actions> Director::on_server_report(FrameNumber frame) {
     if (over_) return Actions{};
     Open* open = find(frame);
-    if (open == nullptr || open->reports_missing == 0) return fail("a report for frame {}, which awaits none", frame);
+    if (open == nullptr || open->reports_missing == 0)
+        return fail("a report for frame {}, which awaits none", frame);
     --open->reports_missing;
     return advance();
 }
@@ -39,7 +41,8 @@ Director::Actions Director::on_lost(const std::string& who, const std::string& w
 }
 
 Director::Actions Director::advance() {
-    // A frame is over when it is displayed and every server has reported: only then do all programs forget it.
+    // A frame is over when it is displayed and every server has reported: only then do all programs forget
+    // it.
     std::erase_if(open_, [](const Open& o) { return o.displayed && o.reports_missing == 0; });
     Actions actions;
     while (next_ < frames_ && open_.size() < in_flight_) {

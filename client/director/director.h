@@ -22,9 +22,9 @@ struct DirectorAction {
     bool operator==(const DirectorAction&) const = default;
 };
 
-// Decides which frame is begun next: keeps a few in flight so that client, servers and display overlap (Samanta 2000,
-// section 4), and lets the slowest of them set the rate. A lost server or display ends the run. Sans-I/O: the client
-// drives it from its sockets, the simulator from its event queue. Not thread-safe.
+// Decides which frame is begun next: keeps a few in flight so that client, servers and display overlap
+// (Samanta 2000, section 4), and lets the slowest of them set the rate. A lost server or display ends the
+// run. Sans-I/O: the client drives it from its sockets, the simulator from its event queue. Not thread-safe.
 class Director {
   public:
     // frames in all, and at most this many begun and not complete at a time (at least 1).

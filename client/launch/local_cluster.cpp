@@ -34,8 +34,8 @@ Result<std::unique_ptr<LocalCluster::Child>> LocalCluster::spawn(const std::file
     for (const int fd : {child->lifeline.pipe().native_source(), child->lifeline.pipe().native_sink(),
                          child->output.pipe().native_source(), child->output.pipe().native_sink()})
         ::fcntl(fd, F_SETFD, FD_CLOEXEC);
-    child->process = bp::child(bp::exe = program.string(), bp::args = all, bp::std_in < child->lifeline,
-                               bp::std_out > child->output, error);
+    child->process = bp::child(bp::exe = program.string(), bp::args = all,
+                               bp::std_in<child->lifeline, bp::std_out> child->output, error);
     if (error) return fail("cannot start {}: {}", program.string(), error.message());
     return child;
 }
@@ -45,7 +45,9 @@ Result<std::unique_ptr<LocalCluster>> LocalCluster::start(const Options& options
     // All are started before any is waited for.
     for (std::size_t i = 0; i <= options.servers; ++i) {
         std::vector<std::string> arguments = options.arguments;
-        if (i > 0) arguments.insert(arguments.end(), options.server_arguments.begin(), options.server_arguments.end());
+        if (i > 0)
+            arguments.insert(arguments.end(), options.server_arguments.begin(),
+                             options.server_arguments.end());
         auto child = spawn(options.programs / (i == 0 ? "swath-display" : "swath-server"), arguments);
         if (!child) return tl::unexpected(child.error());
         cluster->children_.push_back(std::move(*child));

@@ -9,14 +9,14 @@
 
 namespace swath {
 
-// A display and servers as child processes on loopback, each on a free port. They end with this object, and with this
-// process however it ends: their stdin is a pipe from us, and they watch it ("lifeline").
+// A display and servers as child processes on loopback, each on a free port. They end with this object, and
+// with this process however it ends: their stdin is a pipe from us, and they watch it ("lifeline").
 class LocalCluster {
   public:
     struct Options {
-        std::filesystem::path programs;       // the folder of swath-server and swath-display
+        std::filesystem::path programs;  // the folder of swath-server and swath-display
         std::size_t servers = 1;
-        std::vector<std::string> arguments;   // for every program
+        std::vector<std::string> arguments;  // for every program
         std::vector<std::string> server_arguments;
     };
     // Starts all and waits until each has said where it listens. Errors name the program and what it did.
@@ -32,7 +32,8 @@ class LocalCluster {
   private:
     struct Child;
     LocalCluster();
-    static Result<std::unique_ptr<Child>> spawn(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+    static Result<std::unique_ptr<Child>> spawn(const std::filesystem::path& program,
+                                                const std::vector<std::string>& arguments);
 
     std::vector<std::unique_ptr<Child>> children_;
     std::vector<Address> servers_;

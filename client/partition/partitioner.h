@@ -11,7 +11,6 @@
 
 namespace swath {
 
-
 // What a frame's partition is decided from. Borrows the objects for the call.
 struct PartitionInput {
     FrameNumber frame = 0;

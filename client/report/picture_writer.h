@@ -9,10 +9,12 @@
 
 namespace swath {
 
-// Keeps a run's pictures as DIR/frame_0000.png and so on; each file is whole or not there. Without a folder it keeps none.
+// Keeps a run's pictures as DIR/frame_0000.png and so on; each file is whole or not there. Without a folder
+// it keeps none.
 class PictureWriter {
   public:
-    PictureWriter(std::filesystem::path folder, PictureFormat format) : folder_(std::move(folder)), format_(format) {}
+    PictureWriter(std::filesystem::path folder, PictureFormat format)
+        : folder_(std::move(folder)), format_(format) {}
     Status write(FrameNumber frame, const Buffer& encoded) const;
 
   private:

@@ -6,7 +6,8 @@
 
 namespace swath {
 
-// Shows on stderr how far a run is: one line that is drawn anew on a terminal, a line every tenth of the run elsewhere.
+// Shows on stderr how far a run is: one line that is drawn anew on a terminal, a line every tenth of the run
+// elsewhere.
 class Progress {
   public:
     Progress(std::size_t frames, bool quiet, const Clock& clock);

@@ -7,8 +7,9 @@
 
 namespace swath {
 
-Result<std::vector<FrameTimeline>> render_single(const SingleJob& job, const Clock& clock,
-                                                 const std::function<Status(FrameNumber, const Buffer&)>& on_picture) {
+Result<std::vector<FrameTimeline>> render_single(
+    const SingleJob& job, const Clock& clock,
+    const std::function<Status(FrameNumber, const Buffer&)>& on_picture) {
     auto renderer = make_renderer(job.renderer, *job.scene);
     if (!renderer) return tl::unexpected(renderer.error());
     std::vector<ObjectId> all(job.scene->objects.size());
@@ -31,12 +32,15 @@ Result<std::vector<FrameTimeline>> render_single(const SingleJob& job, const Clo
         const View view = make_view(job.cameras[number], job.width, job.height);
         const auto visible = cull(job.scene->objects, all, view);
         machine[Counter::kObjects] = visible.size();
-        for (const ObjectId id : visible) machine[Counter::kTriangles] += job.scene->objects[id].triangle_count;
+        for (const ObjectId id : visible)
+            machine[Counter::kTriangles] += job.scene->objects[id].triangle_count;
         end_phase(Phase::kCull);
-        if (const auto status = (*renderer)->draw(visible, view, view.viewport()); !status) return tl::unexpected(status.error());
+        if (const auto status = (*renderer)->draw(visible, view, view.viewport()); !status)
+            return tl::unexpected(status.error());
         end_phase(Phase::kRender);
         pixels.reshape(view.viewport());
-        if (const auto status = (*renderer)->read(view.viewport(), pixels); !status) return tl::unexpected(status.error());
+        if (const auto status = (*renderer)->read(view.viewport(), pixels); !status)
+            return tl::unexpected(status.error());
         end_phase(Phase::kPixelRead);
         const Picture picture = to_picture(pixels, job.background);
         end_phase(Phase::kAssemble);

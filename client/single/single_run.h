@@ -12,8 +12,8 @@
 
 namespace swath {
 
-// The reference: every frame drawn whole by one renderer in this process, without plan or network. Every cluster picture
-// equals these byte for byte. Blocking.
+// The reference: every frame drawn whole by one renderer in this process, without plan or network. Every
+// cluster picture equals these byte for byte. Blocking.
 struct SingleJob {
     const ObjectSet* scene = nullptr;
     RendererKind renderer = RendererKind::kOsmesa;
@@ -23,7 +23,8 @@ struct SingleJob {
     Rgb background{};
     PictureFormat format = PictureFormat::kNone;
 };
-Result<std::vector<FrameTimeline>> render_single(const SingleJob& job, const Clock& clock,
-                                                 const std::function<Status(FrameNumber, const Buffer&)>& on_picture);
+Result<std::vector<FrameTimeline>> render_single(
+    const SingleJob& job, const Clock& clock,
+    const std::function<Status(FrameNumber, const Buffer&)>& on_picture);
 
 }  // namespace swath

@@ -254,7 +254,8 @@ Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& size
         return status;
     return walk_spans(body.subspan(2 * plane, sizes.span_bytes), region, sizes.pixels,
                       [&](int x, int y, int length, std::uint32_t at) {
-                          composite_pixels(static_cast<std::size_t>(length), colour + at, depth + at, &ids[at], frame.colour(x, y), frame.depth(x, y), frame.id(x, y));
+                          composite_pixels(static_cast<std::size_t>(length), colour + at, depth + at,
+                                           &ids[at], frame.colour(x, y), frame.depth(x, y), frame.id(x, y));
                       });
 }
 

@@ -8,7 +8,8 @@ namespace swath {
 
 Status Gather::open(FrameNumber number, const std::vector<ServerId>& incoming) {
     if (number < next_frame_) return fail("frame {} is announced after frame {}", number, next_frame_ - 1);
-    const auto opened = std::count_if(frames_.begin(), frames_.end(), [](const auto& f) { return f.second.open; });
+    const auto opened =
+        std::count_if(frames_.begin(), frames_.end(), [](const auto& f) { return f.second.open; });
     if (static_cast<std::size_t>(opened) >= frames_in_flight_)
         return fail("frame {}: more than {} frames in flight", number, frames_in_flight_);
     if (!frames_.empty() && !frames_.begin()->second.open && frames_.begin()->first < number)
@@ -19,7 +20,8 @@ Status Gather::open(FrameNumber number, const std::vector<ServerId>& incoming) {
     frame.awaited.insert(incoming.begin(), incoming.end());
     for (const ServerId early : frame.waiting)
         if (frame.awaited.erase(early) == 0)
-            return fail("server {} sent pixels for frame {}, which awaits none from it", index(early), number);
+            return fail("server {} sent pixels for frame {}, which awaits none from it", index(early),
+                        number);
     return {};
 }
 
@@ -39,12 +41,14 @@ Result<bool> Gather::arrive(FrameNumber number, ServerId from) {
     const auto found = frames_.find(number);
     if (found == frames_.end()) {
         if (number < next_frame_) return fail("pixels for frame {}, which is over", number);
-        const auto early = std::count_if(frames_.begin(), frames_.end(), [](const auto& f) { return !f.second.open; });
+        const auto early =
+            std::count_if(frames_.begin(), frames_.end(), [](const auto& f) { return !f.second.open; });
         if (static_cast<std::size_t>(early) >= frames_in_flight_)
             return fail("pixels for frame {}, more than {} frames ahead", number, frames_in_flight_);
     }
     Frame& frame = frames_[number];
-    if (frame.open && frame.awaited.erase(from) == 0) return fail("pixels for frame {}, which awaits none", number);
+    if (frame.open && frame.awaited.erase(from) == 0)
+        return fail("pixels for frame {}, which awaits none", number);
     if (frame.ready) return true;
     if (!frame.waiting.insert(from).second) return fail("pixels for frame {} twice", number);
     return false;

@@ -8,9 +8,10 @@
 
 namespace swath {
 
-// Keeps count of the pieces that numbered frames await from servers: a server's swaths, the display's tiles. Pieces come in
-// any order, also before the frame itself is announced here, since its announcement travels on another connection.
-// Decision code: no pixels, no I/O, no clock. Not thread-safe. Errors blame the sender of the event.
+// Keeps count of the pieces that numbered frames await from servers: a server's swaths, the display's tiles.
+// Pieces come in any order, also before the frame itself is announced here, since its announcement travels on
+// another connection. Decision code: no pixels, no I/O, no clock. Not thread-safe. Errors blame the sender of
+// the event.
 class Gather {
   public:
     // Pieces may arrive for at most this many frames that have not been opened.
@@ -18,7 +19,8 @@ class Gather {
 
     // Frame numbers ascend from call to call.
     Status open(FrameNumber frame, const std::vector<ServerId>& incoming);
-    // From now on pieces of the (open) frame can be used; those that have arrived, ascending, are to be used now.
+    // From now on pieces of the (open) frame can be used; those that have arrived, ascending, are to be used
+    // now.
     std::vector<ServerId> ready(FrameNumber frame);
     // True: use the piece now. False: keep it until ready() or open() names it.
     Result<bool> arrive(FrameNumber frame, ServerId from);

@@ -3,12 +3,12 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <unistd.h>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <unistd.h>
 
 namespace swath {
 namespace asio = boost::asio;
@@ -49,7 +49,8 @@ int run_error(const Error& error) {
 }
 
 void start_log(const std::string& program, const ProgramOptions& options) {
-    auto logger = std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    auto logger =
+        std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>());
     logger->set_pattern("%H:%M:%S.%e %n %l: %v");
     logger->set_level(options.quiet ? spdlog::level::warn : spdlog::level::info);
     spdlog::set_default_logger(std::move(logger));
@@ -73,11 +74,12 @@ int run_until_stopped(asio::io_context& io, const ProgramOptions& options) {
     asio::posix::stream_descriptor lifeline(io);
     std::array<char, 64> ignored{};
     std::function<void()> watch = [&] {
-        lifeline.async_read_some(asio::buffer(ignored), [&](const boost::system::error_code& error, std::size_t) {
-            if (error == asio::error::operation_aborted) return;
-            if (error) leave(kExitDone);
-            watch();
-        });
+        lifeline.async_read_some(asio::buffer(ignored),
+                                 [&](const boost::system::error_code& error, std::size_t) {
+                                     if (error == asio::error::operation_aborted) return;
+                                     if (error) leave(kExitDone);
+                                     watch();
+                                 });
     };
     if (options.lifeline) {
         lifeline.assign(::dup(STDIN_FILENO));
@@ -88,8 +90,10 @@ int run_until_stopped(asio::io_context& io, const ProgramOptions& options) {
 }
 
 std::string default_cache_folder() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0') return std::string(cache) + "/swath";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') return std::string(home) + "/.cache/swath";
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
+        return std::string(cache) + "/swath";
+    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+        return std::string(home) + "/.cache/swath";
     return "/tmp/swath-cache";
 }
 

@@ -20,7 +20,8 @@ struct ProgramOptions {
 };
 void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& timing);
 
-// Parses; the exit code if the program is to end now (help, or a wrong flag: one line on stderr and kExitUsage).
+// Parses; the exit code if the program is to end now (help, or a wrong flag: one line on stderr and
+// kExitUsage).
 std::optional<int> parse_options(CLI::App& app, int argc, char** argv);
 int usage_error(const Error& error);  // prints the line, gives kExitUsage
 int run_error(const Error& error);    // prints the line, gives kExitFailed
@@ -31,7 +32,8 @@ void start_log(const std::string& program, const ProgramOptions& options);
 // Prints "listening HOST:PORT" to stdout, for whoever started the program with port 0.
 void announce(const Address& address);
 
-// Runs `io` until SIGINT or SIGTERM, or, with a lifeline, until stdin closes: the program that started us has gone.
+// Runs `io` until SIGINT or SIGTERM, or, with a lifeline, until stdin closes: the program that started us has
+// gone.
 int run_until_stopped(boost::asio::io_context& io, const ProgramOptions& options);
 
 // $XDG_CACHE_HOME/swath, else ~/.cache/swath.

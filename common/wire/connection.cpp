@@ -3,6 +3,7 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
+#include <new>
 
 #include "common/wire/address.h"
 
@@ -44,10 +45,14 @@ void Connection::start(Handlers handlers) {
     watch();
 }
 
-std::optional<std::size_t> Connection::offer(const Message& message, Buffer body) {
+Result<std::size_t> Connection::offer(const Message& message, Buffer body) {
     if (!open_ || closing_) return 0;  // the close is already on its way to the caller
     const std::string head = encode_head(message);
-    if (queued_bytes_ + head.size() + body.size() > options_.max_queued_bytes) return std::nullopt;
+    if (head.size() > peer_limits_.max_head_bytes || body.size() > peer_limits_.max_body_bytes)
+        return fail("a {} of {} and {} bytes, its limits are {} and {}", name(message), head.size(),
+                    body.size(), peer_limits_.max_head_bytes, peer_limits_.max_body_bytes);
+    if (queued_bytes_ + head.size() + body.size() > options_.max_queued_bytes)
+        return fail("does not read: its send queue is full");
     const auto prefix =
         encode_prefix({static_cast<std::uint32_t>(head.size()), static_cast<std::uint32_t>(body.size())});
     Outgoing out;
@@ -110,8 +115,12 @@ void Connection::read_prefix() {
 }
 
 void Connection::read_rest(const Prefix& prefix) {
-    head_.resize(prefix.head_bytes);
-    body_ = Buffer(prefix.body_bytes);
+    try {
+        head_.resize(prefix.head_bytes);
+        body_ = Buffer(prefix.body_bytes);
+    } catch (const std::bad_alloc&) {
+        return fail_with({fmt::format("a message of {} bytes: not enough memory for it", prefix.body_bytes)});
+    }
     const std::array<asio::mutable_buffer, 2> buffers{asio::buffer(head_),
                                                       asio::buffer(body_.data(), body_.size())};
     // The condition sees every piece that arrives: a large body on a slow link is not silence.
@@ -134,7 +143,14 @@ void Connection::read_rest(const Prefix& prefix) {
 void Connection::on_received() {
     auto message = decode_head(head_);
     if (!message) return fail_with(message.error());
-    const auto status = dispatch(std::move(*message));
+    // What a peer asks for may be within the limits and still too much for this machine: that ends the peer,
+    // not us.
+    Status status;
+    try {
+        status = dispatch(std::move(*message));
+    } catch (const std::bad_alloc&) {
+        status = fail("not enough memory for it");
+    }
     if (!status) return fail_with(status.error());
     if (open_ && !closing_) read_prefix();
 }
@@ -144,12 +160,13 @@ Status Connection::dispatch(Message&& message) {
         const auto* hello = std::get_if<Hello>(&message);
         if (hello == nullptr) return fail("sent {} before Hello", name(message));
         introduced_ = true;
+        peer_limits_ = {hello->max_head_bytes, hello->max_body_bytes};
         return handlers_.on_hello(*hello);
     }
     if (std::holds_alternative<Hello>(message)) return fail("sent Hello twice");
     if (const auto* ping = std::get_if<Ping>(&message)) {
-        if (!offer(Pong{ping->sent, clock_.now()})) return fail("does not read: its send queue is full");
-        return {};
+        const auto sent = offer(Pong{ping->sent, clock_.now()});
+        return sent ? Status{} : tl::unexpected(sent.error());
     }
     if (const auto* pong = std::get_if<Pong>(&message)) {
         const Nanoseconds now = clock_.now();
@@ -181,10 +198,9 @@ void Connection::watch() {
                                      : fail("silent for {:.1f} s", seconds(now - self->last_received_)));
             return;
         }
-        if (now - self->last_sent_ >= self->options_.timing.heartbeat && !self->offer(Ping{now})) {
-            self->end(fail("does not read: its send queue is full"));
-            return;
-        }
+        if (now - self->last_sent_ >= self->options_.timing.heartbeat)
+            if (const auto sent = self->offer(Ping{now}); !sent)
+                return self->end(tl::unexpected(sent.error()));
         self->watch();
     });
 }

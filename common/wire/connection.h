@@ -5,7 +5,6 @@
 #include <deque>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,9 +46,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
     void start(Handlers handlers);
 
-    // Queues a message. The value is the bytes of its prefix and head, so that a caller can count what it sends; none
-    // when the peer takes too little and the queue is full: the caller gives the peer up.
-    [[nodiscard]] std::optional<std::size_t> offer(const Message& message, Buffer body = {});
+    // Queues a message. The value is the bytes of its prefix and head, so that a caller can count what it
+    // sends. Fails when the peer takes too little and the queue is full, or does not accept so much: the
+    // caller gives the peer up.
+    [[nodiscard]] Result<std::size_t> offer(const Message& message, Buffer body = {});
 
     // Tells the peer why (Failed), then closes; on_closed follows with the error.
     void fail_with(const Error& error);
@@ -89,6 +89,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
     bool open_ = true;
     bool introduced_ = false;
+    WireLimits peer_limits_ = kHelloLimits;
     bool closing_ = false;  // the queue is being flushed; nothing is read any more
     Status close_reason_;
 

@@ -11,13 +11,15 @@ using boost::asio::ip::tcp;
 Result<std::unique_ptr<SessionHost>> SessionHost::make(boost::asio::io_context& io, const Options& options,
                                                        const Clock& clock, MakeSession make_session) {
     std::unique_ptr<SessionHost> host(new SessionHost(io, options, clock, std::move(make_session)));
-    auto listener = Listener::make(io, options.listen, [raw = host.get()](tcp::socket socket) { raw->on_socket(std::move(socket)); });
+    auto listener = Listener::make(
+        io, options.listen, [raw = host.get()](tcp::socket socket) { raw->on_socket(std::move(socket)); });
     if (!listener) return tl::unexpected(listener.error());
     host->listener_ = std::move(*listener);
     return host;
 }
 
-SessionHost::SessionHost(boost::asio::io_context& io, const Options& options, const Clock& clock, MakeSession make_session)
+SessionHost::SessionHost(boost::asio::io_context& io, const Options& options, const Clock& clock,
+                         MakeSession make_session)
     : io_(io), options_(options), clock_(clock), make_session_(std::move(make_session)) {}
 
 SessionHost::~SessionHost() {
@@ -38,7 +40,8 @@ void SessionHost::on_socket(tcp::socket socket) {
     const std::weak_ptr<Connection> weak = connection;
     const std::weak_ptr<char> alive = alive_;
     connection->start({[this, alive, weak](const Hello& hello) {
-                           return alive.expired() ? Status(fail("shutting down")) : on_hello(weak.lock(), hello);
+                           return alive.expired() ? Status(fail("shutting down"))
+                                                  : on_hello(weak.lock(), hello);
                        },
                        [this, alive, weak](Message&& message, Buffer&& body) -> Status {
                            if (alive.expired() || !session_) return fail("the session is over");
@@ -63,7 +66,8 @@ Status SessionHost::on_hello(const std::shared_ptr<Connection>& connection, cons
             if (status) newcomers_.erase(connection);
             return status;
         }
-        case Role::kDisplay: break;
+        case Role::kDisplay:
+            break;
     }
     return fail("a {} takes no connection from a display", name(options_.role));
 }

@@ -28,9 +28,9 @@ class Session {
     virtual void stop() = 0;
 };
 
-// What swath-server and swath-display share: listens, lets newcomers introduce themselves, gives the first client a
-// session and everyone else to that session. One client at a time; a second is told that it must wait. An error ends one
-// connection, never the program.
+// What swath-server and swath-display share: listens, lets newcomers introduce themselves, gives the first
+// client a session and everyone else to that session. One client at a time; a second is told that it must
+// wait. An error ends one connection, never the program.
 class SessionHost {
   public:
     using MakeSession = std::function<std::shared_ptr<Session>(std::shared_ptr<Connection> client)>;
@@ -40,13 +40,14 @@ class SessionHost {
         WireTiming timing;
     };
 
-    static Result<std::unique_ptr<SessionHost>> make(boost::asio::io_context& io, const Options& options, const Clock& clock,
-                                                     MakeSession make_session);
+    static Result<std::unique_ptr<SessionHost>> make(boost::asio::io_context& io, const Options& options,
+                                                     const Clock& clock, MakeSession make_session);
     ~SessionHost();
     Address address() const { return listener_->address(); }
 
   private:
-    SessionHost(boost::asio::io_context& io, const Options& options, const Clock& clock, MakeSession make_session);
+    SessionHost(boost::asio::io_context& io, const Options& options, const Clock& clock,
+                MakeSession make_session);
     void on_socket(boost::asio::ip::tcp::socket socket);
     Status on_hello(const std::shared_ptr<Connection>& connection, const Hello& hello);
     void on_closed(const std::shared_ptr<Connection>& connection, const Status& why);
@@ -58,7 +59,8 @@ class SessionHost {
     std::unique_ptr<Listener> listener_;
     std::set<std::shared_ptr<Connection>> newcomers_;
     std::shared_ptr<Session> session_;
-    std::shared_ptr<char> alive_ = std::make_shared<char>();  // callbacks hold it weakly: none acts after destruction
+    std::shared_ptr<char> alive_ =
+        std::make_shared<char>();  // callbacks hold it weakly: none acts after destruction
 };
 
 }  // namespace swath

@@ -5,7 +5,8 @@ namespace swath {
 Result<Assembly::Actions> Assembly::on_task(FrameNumber frame, const std::vector<ServerId>& servers) {
     if (const auto status = gather_.open(frame, servers); !status) return tl::unexpected(status.error());
     Actions actions;
-    for (const ServerId server : gather_.ready(frame)) actions.push_back({AssemblyAction::Kind::kMerge, frame, server});
+    for (const ServerId server : gather_.ready(frame))
+        actions.push_back({AssemblyAction::Kind::kMerge, frame, server});
     finish_if_complete(frame, actions);
     return actions;
 }

@@ -19,8 +19,8 @@ struct AssemblyAction {
     bool operator==(const AssemblyAction&) const = default;
 };
 
-// Decides what the display does with tiles (Samanta 2000, section 4, phase 3): merges them as they come and knows when a
-// picture is whole. Sans-I/O like FrameSwap; the simulator drives the same object.
+// Decides what the display does with tiles (Samanta 2000, section 4, phase 3): merges them as they come and
+// knows when a picture is whole. Sans-I/O like FrameSwap; the simulator drives the same object.
 class Assembly {
   public:
     explicit Assembly(std::size_t frames_in_flight) : gather_(frames_in_flight) {}

@@ -13,8 +13,9 @@ struct DisplayOptions {
     WireTiming timing;
 };
 
-// The display: waits for a client, assembles the tiles that servers send into pictures, encodes them if the client wants
-// them, and tells it when each is complete. Encoding runs on a thread of its own, all else on the io_context's.
+// The display: waits for a client, assembles the tiles that servers send into pictures, encodes them if the
+// client wants them, and tells it when each is complete. Encoding runs on a thread of its own, all else on
+// the io_context's.
 Result<std::unique_ptr<SessionHost>> make_display(boost::asio::io_context& io, const DisplayOptions& options,
                                                   const Clock& clock);
 

@@ -31,14 +31,16 @@ bool DisplaySession::on_closed(const std::shared_ptr<Connection>& connection, co
         if (why)
             spdlog::info("client {}: done", connection->peer());
         else
-            spdlog::warn("client {}: {}; waiting for the next client", connection->peer(), why.error().message);
+            spdlog::warn("client {}: {}; waiting for the next client", connection->peer(),
+                         why.error().message);
         return true;
     }
     for (std::size_t i = 0; i < servers_.size(); ++i) {
         if (servers_[i] != connection) continue;
         servers_[i].reset();
         if (why) continue;  // a Bye: the client has ended the run and the server heard of it first
-        const std::string line = fmt::format("lost server {} ({}): {}", i, connection->peer(), why.error().message);
+        const std::string line =
+            fmt::format("lost server {} ({}): {}", i, connection->peer(), why.error().message);
         spdlog::warn("{}; ending the session", line);
         give_up(Error{line});
     }
@@ -67,8 +69,8 @@ Status DisplaySession::from_client(const Message& message) {
         setup_ = *setup;
         servers_.resize(setup->servers);
         assembly_ = std::make_unique<Assembly>(setup->frames_in_flight);
-        if (!client_->offer(Ready{})) return fail("does not read");
-        return {};
+        const auto sent = client_->offer(Ready{});
+        return sent ? Status{} : tl::unexpected(sent.error());
     }
     if (const auto* task = std::get_if<AssembleFrame>(&message)) return on_assemble(*task);
     return fail("{} is not expected from a client", name(message));
@@ -78,7 +80,8 @@ Status DisplaySession::on_assemble(const AssembleFrame& task) {
     if (!assembly_) return fail("AssembleFrame before DisplaySetup");
     std::vector<ServerId> servers;
     for (const Exchange& e : task.tiles) {
-        if (index(e.server) >= servers_.size()) return fail("AssembleFrame: server {} of {}", index(e.server), servers_.size());
+        if (index(e.server) >= servers_.size())
+            return fail("AssembleFrame: server {} of {}", index(e.server), servers_.size());
         servers.push_back(e.server);
     }
     const auto actions = assembly_->on_task(task.frame, servers);
@@ -117,9 +120,12 @@ Status DisplaySession::run(const Assembly::Actions& actions) {
     for (const AssemblyAction& action : actions) {
         switch (action.kind) {
             case AssemblyAction::Kind::kMerge:
-                if (const auto status = merge(frames_.at(action.frame), action.server); !status) return status;
+                if (const auto status = merge(frames_.at(action.frame), action.server); !status)
+                    return status;
                 break;
-            case AssemblyAction::Kind::kComplete: complete(action.frame); break;
+            case AssemblyAction::Kind::kComplete:
+                complete(action.frame);
+                break;
         }
     }
     return {};
@@ -128,7 +134,8 @@ Status DisplaySession::run(const Assembly::Actions& actions) {
 // The span since `begin`, and the wait since the span before it.
 void DisplaySession::add_span(OpenFrame& frame, Phase phase, Nanoseconds begin, Nanoseconds cpu_begin) {
     const Nanoseconds now = clock_.now();
-    if (begin > frame.busy_until) frame.report.spans.push_back({Phase::kWait, frame.busy_until, begin, Nanoseconds(0)});
+    if (begin > frame.busy_until)
+        frame.report.spans.push_back({Phase::kWait, frame.busy_until, begin, Nanoseconds(0)});
     frame.report.spans.push_back({phase, begin, now, clock_.thread_cpu() - cpu_begin});
     frame.busy_until = now;
 }
@@ -142,7 +149,8 @@ Status DisplaySession::merge(OpenFrame& frame, ServerId from) {
     for (const Exchange& e : frame.task.tiles)
         if (e.server == from) region = &e.region;
     CHECK((region != nullptr) == true);
-    const auto status = assemble_tile(tile.mapped().body.bytes(), tile.mapped().sizes, *region, frame.picture);
+    const auto status =
+        assemble_tile(tile.mapped().body.bytes(), tile.mapped().sizes, *region, frame.picture);
     if (!status) return fail("garbled tile from server {}: {}", index(from), status.error().message);
     add_span(frame, Phase::kAssemble, begin, cpu_begin);
     return {};
@@ -170,7 +178,7 @@ void DisplaySession::complete(FrameNumber number) {
 }
 
 void DisplaySession::report(DisplayReport&& report, Buffer encoded) {
-    if (!client_->offer(report, std::move(encoded))) give_up({"the client does not read: its send queue is full"});
+    if (const auto sent = client_->offer(report, std::move(encoded)); !sent) give_up(sent.error());
 }
 
 }  // namespace swath

@@ -10,8 +10,8 @@
 
 namespace swath {
 
-// One client's run on the display. It does what Assembly decides. A complete picture is encoded before its frame is
-// reported, so that encoding slower than rendering holds the client back instead of piling up.
+// One client's run on the display. It does what Assembly decides. A complete picture is encoded before its
+// frame is reported, so that encoding slower than rendering holds the client back instead of piling up.
 class DisplaySession final : public Session, public std::enable_shared_from_this<DisplaySession> {
   public:
     DisplaySession(boost::asio::io_context& io, const Clock& clock, std::shared_ptr<Connection> client);

@@ -7,7 +7,8 @@
 namespace swath {
 
 DrawThread::~DrawThread() {
-    // The renderer dies where it lived. (The destructor of thread_ drops what is queued, so wait for this one.)
+    // The renderer dies where it lived. (The destructor of thread_ drops what is queued, so wait for this
+    // one.)
     std::mutex mutex;
     std::condition_variable gone;
     bool done = false;
@@ -21,18 +22,20 @@ DrawThread::~DrawThread() {
     gone.wait(lock, [&] { return done; });
 }
 
-void DrawThread::load(Mesh mesh, int octree_depth, RendererKind kind, std::function<void(Result<Loaded>)> done) {
-    thread_.post([this, mesh = std::make_shared<Mesh>(std::move(mesh)), octree_depth, kind, done = std::move(done)] {
-        try {
-            scene_ = build_objects(std::move(*mesh), {octree_depth, 0});
-            auto renderer = factory_(kind, scene_);
-            if (!renderer) return done(tl::unexpected(renderer.error()));
-            renderer_ = std::move(*renderer);
-            done(Loaded{scene_.objects.size(), scene_.mesh.triangle_count(), renderer_->description()});
-        } catch (const std::bad_alloc&) {
-            done(fail("not enough memory for the model"));
-        }
-    });
+void DrawThread::load(Mesh mesh, int octree_depth, RendererKind kind,
+                      std::function<void(Result<Loaded>)> done) {
+    thread_.post(
+        [this, mesh = std::make_shared<Mesh>(std::move(mesh)), octree_depth, kind, done = std::move(done)] {
+            try {
+                scene_ = build_objects(std::move(*mesh), {octree_depth, 0});
+                auto renderer = factory_(kind, scene_);
+                if (!renderer) return done(tl::unexpected(renderer.error()));
+                renderer_ = std::move(*renderer);
+                done(Loaded{scene_.objects.size(), scene_.mesh.triangle_count(), renderer_->description()});
+            } catch (const std::bad_alloc&) {
+                done(fail("not enough memory for the model"));
+            }
+        });
 }
 
 void DrawThread::draw(DrawJob job, std::function<void(Drawn)> done) {

@@ -38,8 +38,8 @@ struct Loaded {
 // How a server gets its renderer; benchmarks and tests bring their own.
 using RendererFactory = std::function<Result<std::unique_ptr<Renderer>>(RendererKind, const ObjectSet&)>;
 
-// The thread that owns the scene and its renderer: the GL context is bound to it. Results go to callbacks ON THAT THREAD,
-// which post them on. Destroying it waits for the job in progress.
+// The thread that owns the scene and its renderer: the GL context is bound to it. Results go to callbacks ON
+// THAT THREAD, which post them on. Destroying it waits for the job in progress.
 class DrawThread {
   public:
     DrawThread(RendererFactory factory, const Clock& clock) : factory_(std::move(factory)), clock_(clock) {}

@@ -18,9 +18,9 @@ struct ServerOptions {
     WireTiming timing;
 };
 
-// A render server: waits for a client, works through its frames until it says Bye, then waits for the next. Everything
-// but drawing runs on the io_context's thread. `clock` and `io` must outlive it.
-Result<std::unique_ptr<SessionHost>> make_server(boost::asio::io_context& io, const ServerOptions& options, const Clock& clock,
-                                                 RendererFactory factory);
+// A render server: waits for a client, works through its frames until it says Bye, then waits for the next.
+// Everything but drawing runs on the io_context's thread. `clock` and `io` must outlive it.
+Result<std::unique_ptr<SessionHost>> make_server(boost::asio::io_context& io, const ServerOptions& options,
+                                                 const Clock& clock, RendererFactory factory);
 
 }  // namespace swath

@@ -35,12 +35,17 @@ void ServerSession::give_up(const Error& error) {
     if (draw_thread_) client_->fail_with(error);
 }
 
+void ServerSession::tell_client(const Message& message) {
+    if (const auto sent = client_->offer(message); !sent) give_up(sent.error());
+}
+
 bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
     if (connection == client_) {
         if (why)
             spdlog::info("client {}: done", connection->peer());
         else
-            spdlog::warn("client {}: {}; waiting for the next client", connection->peer(), why.error().message);
+            spdlog::warn("client {}: {}; waiting for the next client", connection->peer(),
+                         why.error().message);
         return true;
     }
     std::string who;
@@ -55,7 +60,8 @@ bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, con
         }
     // A Bye comes when the client has ended the run and a peer heard of it before we did.
     if (!who.empty() && !why) {
-        const std::string line = fmt::format("lost {} ({}): {}", who, connection->peer(), why.error().message);
+        const std::string line =
+            fmt::format("lost {} ({}): {}", who, connection->peer(), why.error().message);
         spdlog::warn("{}; ending the session", line);
         give_up(Error{line});
     }
@@ -87,14 +93,16 @@ Status ServerSession::on_setup(const ServerSetup& setup) {
     peers_.resize(setup.servers.size());
     swap_ = std::make_unique<FrameSwap>(setup.frames_in_flight);
     if (setup.blob_bytes > options_.max_model_bytes)
-        return fail("model {}: {} bytes, this server's limit is {}", setup.model, setup.blob_bytes, options_.max_model_bytes);
+        return fail("model {}: {} bytes, this server's limit is {}", setup.model, setup.blob_bytes,
+                    options_.max_model_bytes);
     draw_thread_->run([self = shared_from_this()] {
-        auto mesh = std::make_shared<std::optional<Mesh>>(self->store_.find(self->setup_.model, self->setup_.digest));
+        auto mesh =
+            std::make_shared<std::optional<Mesh>>(self->store_.find(self->setup_.model, self->setup_.digest));
         asio::post(self->io_, [self, mesh] {
             if (!self->draw_thread_) return;
             if (*mesh) return self->load(std::move(**mesh));
             spdlog::info("model {}: asking the client for it", self->setup_.model);
-            if (!self->client_->offer(NeedModel{0})) self->give_up({"the client does not read"});
+            self->tell_client(NeedModel{0});
         });
     });
     return {};
@@ -102,16 +110,19 @@ Status ServerSession::on_setup(const ServerSetup& setup) {
 
 Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
     if (!set_up_ || ready_) return fail("ModelPart is not expected now");
-    if (part.offset != blob_.size()) return fail("ModelPart: offset {} where {} was asked for", part.offset, blob_.size());
+    if (part.offset != blob_.size())
+        return fail("ModelPart: offset {} where {} was asked for", part.offset, blob_.size());
     if (body.empty() || body.size() > setup_.blob_bytes - blob_.size())
-        return fail("ModelPart: {} bytes where {} are missing", body.size(), setup_.blob_bytes - blob_.size());
+        return fail("ModelPart: {} bytes where {} are missing", body.size(),
+                    setup_.blob_bytes - blob_.size());
     blob_.append(body.data(), body.size());
     if (blob_.size() < setup_.blob_bytes) {
-        if (!client_->offer(NeedModel{blob_.size()})) return fail("does not read");
+        tell_client(NeedModel{blob_.size()});
         return {};
     }
     draw_thread_->run([self = shared_from_this()] {
-        auto mesh = std::make_shared<Result<Mesh>>(self->store_.accept(self->blob_.bytes(), self->setup_.digest));
+        auto mesh =
+            std::make_shared<Result<Mesh>>(self->store_.accept(self->blob_.bytes(), self->setup_.digest));
         asio::post(self->io_, [self, mesh] {
             if (!self->draw_thread_) return;
             self->blob_ = Buffer();
@@ -123,18 +134,18 @@ Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
 }
 
 void ServerSession::load(Mesh mesh) {
-    draw_thread_->load(std::move(mesh), setup_.octree_depth, setup_.renderer, [self = shared_from_this()](Result<Loaded> loaded) {
-        asio::post(self->io_, [self, loaded = std::move(loaded)] {
-            if (!self->draw_thread_) return;
-            if (!loaded) return self->give_up(loaded.error());
-            self->objects_ = loaded->objects;
-            self->ready_ = true;
-            spdlog::info("model {}: {} triangles in {} objects; {}", self->setup_.model, loaded->triangles, loaded->objects,
-                         loaded->renderer);
-            if (!self->client_->offer(Ready{loaded->objects, loaded->triangles, loaded->renderer}))
-                self->give_up({"the client does not read"});
-        });
-    });
+    draw_thread_->load(std::move(mesh), setup_.octree_depth, setup_.renderer,
+                       [self = shared_from_this()](Result<Loaded> loaded) {
+                           asio::post(self->io_, [self, loaded = std::move(loaded)] {
+                               if (!self->draw_thread_) return;
+                               if (!loaded) return self->give_up(loaded.error());
+                               self->objects_ = loaded->objects;
+                               self->ready_ = true;
+                               spdlog::info("model {}: {} triangles in {} objects; {}", self->setup_.model,
+                                            loaded->triangles, loaded->objects, loaded->renderer);
+                               self->tell_client(Ready{loaded->objects, loaded->triangles, loaded->renderer});
+                           });
+                       });
 }
 
 // --- the mesh of connections: every server connects to the display and to the servers with smaller ids
@@ -143,7 +154,8 @@ Status ServerSession::on_connect() {
     if (!ready_ || connecting_) return fail("Connect is not expected now");
     connecting_ = true;
     connect(setup_.display, Role::kDisplay, {});
-    for (std::size_t i = 0; i < index(setup_.server); ++i) connect(setup_.servers[i], Role::kServer, server_id(i));
+    for (std::size_t i = 0; i < index(setup_.server); ++i)
+        connect(setup_.servers[i], Role::kServer, server_id(i));
     report_if_connected();
     return {};
 }
@@ -151,34 +163,37 @@ Status ServerSession::on_connect() {
 void ServerSession::connect(const std::string& text, Role role, ServerId id) {
     const auto address = parse_address(text);
     if (!address) return give_up(address.error());
-    async_connect(io_, *address, options_.connect_patience,
-                  [self = shared_from_this(), role, id](Result<asio::ip::tcp::socket> socket) {
-                      if (!self->draw_thread_) return;
-                      if (!socket) return self->give_up(socket.error());
-                      Connection::Options options;
-                      options.hello.role = Role::kServer;
-                      options.hello.session = self->setup_.session;
-                      options.hello.server = self->setup_.server;
-                      options.timing = self->options_.timing;
-                      const auto connection = std::make_shared<Connection>(std::move(*socket), options, self->clock_);
-                      (role == Role::kDisplay ? self->display_ : self->peers_[index(id)]) = connection;
-                      const std::weak_ptr<Connection> weak = connection;
-                      connection->start({[self, role, id](const Hello& hello) {
-                                             if (const auto status = self->on_peer_hello(role, id, hello); !status) return status;
-                                             self->report_if_connected();
-                                             return Status{};
-                                         },
-                                         [self, weak](Message&& message, Buffer&& body) {
-                                             return self->on_message(weak.lock(), std::move(message), std::move(body));
-                                         },
-                                         [self, weak](const Status& why) { self->on_closed(weak.lock(), why); }});
-                  });
+    async_connect(
+        io_, *address, options_.connect_patience,
+        [self = shared_from_this(), role, id](Result<asio::ip::tcp::socket> socket) {
+            if (!self->draw_thread_) return;
+            if (!socket) return self->give_up(socket.error());
+            Connection::Options options;
+            options.hello.role = Role::kServer;
+            options.hello.session = self->setup_.session;
+            options.hello.server = self->setup_.server;
+            options.timing = self->options_.timing;
+            const auto connection = std::make_shared<Connection>(std::move(*socket), options, self->clock_);
+            (role == Role::kDisplay ? self->display_ : self->peers_[index(id)]) = connection;
+            const std::weak_ptr<Connection> weak = connection;
+            connection->start({[self, role, id](const Hello& hello) {
+                                   if (const auto status = self->on_peer_hello(role, id, hello); !status)
+                                       return status;
+                                   self->report_if_connected();
+                                   return Status{};
+                               },
+                               [self, weak](Message&& message, Buffer&& body) {
+                                   return self->on_message(weak.lock(), std::move(message), std::move(body));
+                               },
+                               [self, weak](const Status& why) { self->on_closed(weak.lock(), why); }});
+        });
 }
 
 Status ServerSession::on_peer_hello(Role role, ServerId id, const Hello& hello) const {
     if (hello.role != role) return fail("a {} answers where a {} is expected", name(hello.role), name(role));
     if (hello.session != setup_.session) return fail("this {} is in another session", name(role));
-    if (role == Role::kServer && hello.server != id) return fail("this is server {}, not {}", index(hello.server), index(id));
+    if (role == Role::kServer && hello.server != id)
+        return fail("this is server {}, not {}", index(hello.server), index(id));
     return {};
 }
 
@@ -196,7 +211,7 @@ void ServerSession::report_if_connected() {
     for (std::size_t i = 0; i < peers_.size(); ++i)
         if (server_id(i) != setup_.server && !peers_[i]) return;
     connected_ = true;
-    if (!client_->offer(Connected{})) give_up({"the client does not read"});
+    tell_client(Connected{});
 }
 
 // --- frames
@@ -225,7 +240,8 @@ Status ServerSession::on_render_frame(RenderFrame&& task) {
     frame.busy_until = clock_.now();
     frame.task = std::move(task);
     // Pieces that came before the task are keyed by frame.
-    for (auto it = early_.begin(); it != early_.end() && it->first.first <= frame.task.frame; it = early_.erase(it))
+    for (auto it = early_.begin(); it != early_.end() && it->first.first <= frame.task.frame;
+         it = early_.erase(it))
         frame.pieces.emplace(it->first.second, std::move(it->second));
     return run(*actions);
 }
@@ -248,11 +264,21 @@ Status ServerSession::run(const FrameSwap::Actions& actions) {
         OpenFrame& frame = frames_.at(action.frame);
         Status status;
         switch (action.kind) {
-            case SwapAction::Kind::kDraw: draw(frame); break;
-            case SwapAction::Kind::kSendSwath: status = send_swath(frame, action.peer); break;
-            case SwapAction::Kind::kComposite: status = composite(frame, action.peer); break;
-            case SwapAction::Kind::kSendTile: status = send_tile(frame); break;
-            case SwapAction::Kind::kFinished: status = finish(action.frame); break;
+            case SwapAction::Kind::kDraw:
+                draw(frame);
+                break;
+            case SwapAction::Kind::kSendSwath:
+                status = send_swath(frame, action.peer);
+                break;
+            case SwapAction::Kind::kComposite:
+                status = composite(frame, action.peer);
+                break;
+            case SwapAction::Kind::kSendTile:
+                status = send_tile(frame);
+                break;
+            case SwapAction::Kind::kFinished:
+                status = finish(action.frame);
+                break;
         }
         if (!status) return status;
     }
@@ -260,7 +286,8 @@ Status ServerSession::run(const FrameSwap::Actions& actions) {
 }
 
 void ServerSession::draw(OpenFrame& frame) {
-    DrawJob job{frame.task.view, std::move(frame.task.group), frame.task.content, frame.task.final_region, {}};
+    DrawJob job{
+        frame.task.view, std::move(frame.task.group), frame.task.content, frame.task.final_region, {}};
     if (!pool_.empty()) {
         job.pixels = std::move(pool_.back());
         pool_.pop_back();
@@ -274,11 +301,13 @@ void ServerSession::draw(OpenFrame& frame) {
             ServerReport& report = open.report;
             report.spans = std::move(drawn->spans);
             // Before drawing it waited for its turn behind the frame before.
-            report.spans.insert(report.spans.begin(), {Phase::kWait, open.busy_until, report.spans.front().begin, Nanoseconds(0)});
+            report.spans.insert(report.spans.begin(),
+                                {Phase::kWait, open.busy_until, report.spans.front().begin, Nanoseconds(0)});
             report[Counter::kObjects] = drawn->objects;
             report[Counter::kTriangles] = drawn->triangles;
             open.busy_until = report.spans.back().end;
-            if (const auto status = self->run(self->swap_->on_drawn(number)); !status) self->give_up(status.error());
+            if (const auto status = self->run(self->swap_->on_drawn(number)); !status)
+                self->give_up(status.error());
         });
     });
 }
@@ -289,8 +318,13 @@ namespace {
 class PhaseTimer {
   public:
     PhaseTimer(const Clock& clock, ServerReport& report, Nanoseconds& busy_until)
-        : clock_(clock), report_(report), busy_until_(busy_until), begin_(clock.now()), cpu_(clock.thread_cpu()) {
-        if (begin_ > busy_until_) report_.spans.push_back({Phase::kWait, busy_until_, begin_, Nanoseconds(0)});
+        : clock_(clock),
+          report_(report),
+          busy_until_(busy_until),
+          begin_(clock.now()),
+          cpu_(clock.thread_cpu()) {
+        if (begin_ > busy_until_)
+            report_.spans.push_back({Phase::kWait, busy_until_, begin_, Nanoseconds(0)});
     }
     void end(Phase phase) {
         const Nanoseconds now = clock_.now();
@@ -325,7 +359,7 @@ Status ServerSession::send_swath(OpenFrame& frame, ServerId to) {
     const auto& peer = peers_[index(to)];
     if (!peer) return fail("server {} has gone", index(to));
     const auto sent = peer->offer(SwathPixels{frame.task.frame, sizes}, std::move(body));
-    if (!sent) return fail("server {} does not read: its send queue is full", index(to));
+    if (!sent) return fail("server {}: {}", index(to), sent.error().message);
     frame.report[Counter::kSwapPixels] += sizes.pixels;
     frame.report[Counter::kSwapBytes] += bytes + *sent;
     timer.end(Phase::kSwap);
@@ -336,8 +370,9 @@ Status ServerSession::composite(OpenFrame& frame, ServerId from) {
     PhaseTimer timer(clock_, frame.report, frame.busy_until);
     const auto piece = frame.pieces.extract(from);
     CHECK(piece.empty() == false);
-    const auto status = composite_swath(piece.mapped().body.bytes(), piece.mapped().sizes, region_of(frame.task.incoming, from),
-                                        static_cast<ObjectId>(objects_), frame.pixels);
+    const auto status =
+        composite_swath(piece.mapped().body.bytes(), piece.mapped().sizes,
+                        region_of(frame.task.incoming, from), static_cast<ObjectId>(objects_), frame.pixels);
     if (!status) return fail("garbled pixels from server {}: {}", index(from), status.error().message);
     frame.report[Counter::kReceivedPixels] += piece.mapped().sizes.pixels;
     timer.end(Phase::kPixelWrite);
@@ -352,7 +387,7 @@ Status ServerSession::send_tile(OpenFrame& frame) {
     timer.end(Phase::kFinalRead);
     if (!display_) return fail("the display has gone");
     const auto sent = display_->offer(TilePixels{frame.task.frame, sizes}, std::move(body));
-    if (!sent) return fail("the display does not read: its send queue is full");
+    if (!sent) return fail_in("the display", sent.error());
     frame.report[Counter::kTilePixels] += sizes.pixels;
     frame.report[Counter::kTileBytes] += bytes + *sent;
     timer.end(Phase::kSend);
@@ -362,7 +397,7 @@ Status ServerSession::send_tile(OpenFrame& frame) {
 Status ServerSession::finish(FrameNumber number) {
     auto open = frames_.extract(number);
     pool_.push_back(std::move(open.mapped().pixels));
-    if (!client_->offer(open.mapped().report)) return fail("the client does not read: its send queue is full");
+    tell_client(open.mapped().report);
     return {};
 }
 

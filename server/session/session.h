@@ -12,12 +12,13 @@
 
 namespace swath {
 
-// One client's run on one server: set-up, connections to peers and display, and the frames. It does what FrameSwap
-// decides. On the io_context's thread; callbacks of work in progress keep it alive, and after stop() they do nothing.
+// One client's run on one server: set-up, connections to peers and display, and the frames. It does what
+// FrameSwap decides. On the io_context's thread; callbacks of work in progress keep it alive, and after
+// stop() they do nothing.
 class ServerSession final : public Session, public std::enable_shared_from_this<ServerSession> {
   public:
-    ServerSession(boost::asio::io_context& io, const ServerOptions& options, const Clock& clock, RendererFactory factory,
-                  std::shared_ptr<Connection> client);
+    ServerSession(boost::asio::io_context& io, const ServerOptions& options, const Clock& clock,
+                  RendererFactory factory, std::shared_ptr<Connection> client);
 
     std::uint64_t id() const override { return setup_.session; }
     ServerId server() const override { return setup_.server; }
@@ -57,6 +58,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     Status composite(OpenFrame& frame, ServerId from);
     Status send_tile(OpenFrame& frame);
     Status finish(FrameNumber number);
+    void tell_client(const Message& message);
     void give_up(const Error& error);
 
     boost::asio::io_context& io_;

@@ -3,7 +3,8 @@
 namespace swath {
 
 Result<FrameSwap::Actions> FrameSwap::on_task(const SwapTask& task) {
-    if (const auto status = gather_.open(task.frame, task.incoming); !status) return tl::unexpected(status.error());
+    if (const auto status = gather_.open(task.frame, task.incoming); !status)
+        return tl::unexpected(status.error());
     tasks_[task.frame] = {task.outgoing, task.has_tile};
     return Actions{{SwapAction::Kind::kDraw, task.frame, {}}};
 }
@@ -11,7 +12,8 @@ Result<FrameSwap::Actions> FrameSwap::on_task(const SwapTask& task) {
 FrameSwap::Actions FrameSwap::on_drawn(FrameNumber frame) {
     Actions actions;
     const auto arrived = gather_.ready(frame);
-    for (const ServerId peer : tasks_.at(frame).outgoing) actions.push_back({SwapAction::Kind::kSendSwath, frame, peer});
+    for (const ServerId peer : tasks_.at(frame).outgoing)
+        actions.push_back({SwapAction::Kind::kSendSwath, frame, peer});
     for (const ServerId peer : arrived) actions.push_back({SwapAction::Kind::kComposite, frame, peer});
     finish_if_complete(frame, actions);
     return actions;

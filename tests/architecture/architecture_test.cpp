@@ -131,7 +131,7 @@ TEST(Arrows, WithinCommonGoToLowerLayersOnly) {
                                    {"common/geometry/a.h", "common/scene/a.h"},
                                    {"common/timeline/a.h", "common/image/a.h"},
                                    {"common/render/a.h", "common/wire/a.h"},
-                                   {"common/wire/a.h", "common/render/a.h"},
+                                   {"common/cull/a.h", "common/render/a.h"},
                                    {"common/base/a.h", "common/geometry/a.h"}})
         EXPECT_THAT(forbidden_arrows({{from, {to}}}),
                     ElementsAre(fmt::format("{} -> {}: not a lower layer of common", from, to)));
