@@ -237,6 +237,8 @@ void composite_pixels(std::size_t n, const std::uint32_t* __restrict colour_in,
 
 Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
                        ObjectId object_limit, PixelFrame& frame) {
+    // The caller's plan, not the peer's word.
+    for (const Rect& rect : region) CHECK(frame.rect().contains(rect) == true);
     if (const auto status = check_sizes(body, sizes, 8, region); !status) return status;
     const std::size_t plane = std::size_t{4} * sizes.pixels;
     // The planes are used where they lie: a Buffer starts aligned for them.
@@ -261,6 +263,7 @@ Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& size
 
 Status assemble_tile(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
                      Picture& picture) {
+    for (const Rect& rect : region) CHECK((Rect{0, 0, picture.width, picture.height}.contains(rect)) == true);
     if (sizes.id_bytes != 0) return fail("a tile with object ids");
     if (const auto status = check_sizes(body, sizes, 3, region); !status) return status;
     return walk_spans(body.subspan(std::size_t{3} * sizes.pixels), region, sizes.pixels,

@@ -38,11 +38,11 @@ BodySizes encode_tile(const PixelFrame& frame, const Region& region, Buffer& bod
 // Merges a peer's pixels into `frame`: the smaller depth wins, of equal depths the smaller id
 // (docs/design.md, "Exactness"). Nothing in `body` is trusted: sizes, spans, ids below `object_limit` and
 // depths in [0, 1) are checked, and an error says which was wrong; some pixels may have been merged by then.
-// `body` must start at a multiple of 4.
+// `body` must start at a multiple of 4 and `region`, which is the caller's own, lie in frame.rect().
 Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
                        ObjectId object_limit, PixelFrame& frame);
 
-// Writes a server's pixels into the picture. Checked like composite_swath.
+// Writes a server's pixels into the picture, in which `region` must lie. Checked like composite_swath.
 Status assemble_tile(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
                      Picture& picture);
 
