@@ -180,9 +180,13 @@ Result<std::vector<Exchange>> get_exchanges(const google::protobuf::RepeatedPtrF
     return exchanges;
 }
 
-Status check_inside(const Region& region, const Rect& viewport, const char* field) {
+// The rectangles of a region do not overlap, so it has no more pixels than where it lies. (Whether they
+// overlap is not worth finding out: pixels would be sent twice, no more.)
+Status check_inside(const Region& region, const Rect& place, const char* field, const char* place_name) {
     for (const Rect& r : region)
-        if (!viewport.contains(r)) return fail("{}: a rectangle outside the viewport", field);
+        if (!place.contains(r)) return fail("{}: a rectangle outside the {}", field, place_name);
+    if (area(region) > place.area())
+        return fail("{}: {} pixels, the {} has {}", field, area(region), place_name, place.area());
     return {};
 }
 
@@ -316,19 +320,21 @@ Result<Message> get_render_frame(const pb::RenderFrame& in) {
     auto region = get_region(in.final_region(), "final_region");
     if (!region) return tl::unexpected(region.error());
     m.final_region = std::move(*region);
-    if (const auto s = check_inside(m.final_region, viewport, "final_region"); !s)
+    if (const auto s = check_inside(m.final_region, viewport, "final_region", "viewport"); !s)
         return tl::unexpected(s.error());
-    for (const auto& [from, to, field] : {std::tuple(&in.outgoing(), &m.outgoing, "outgoing"),
-                                          std::tuple(&in.incoming(), &m.incoming, "incoming")}) {
+    // What comes is merged where the server has drawn or owns pixels: it has memory for no others.
+    Rect cover = m.content;
+    for (const Rect& r : m.final_region) cover = bounding(cover, r);
+    for (const auto& [from, to, field, place, place_name] :
+         {std::tuple(&in.outgoing(), &m.outgoing, "outgoing", m.content, "content"),
+          std::tuple(&in.incoming(), &m.incoming, "incoming", cover, "content and final region")}) {
         auto exchanges = get_exchanges(*from, field);
         if (!exchanges) return tl::unexpected(exchanges.error());
         *to = std::move(*exchanges);
         for (const Exchange& e : *to)
-            if (const auto s = check_inside(e.region, viewport, field); !s) return tl::unexpected(s.error());
+            if (const auto s = check_inside(e.region, place, field, place_name); !s)
+                return tl::unexpected(s.error());
     }
-    for (const Exchange& e : m.outgoing)
-        if (const auto s = check_inside(e.region, m.content, "outgoing"); !s)
-            return fail("outgoing: a rectangle outside the content");
     return m;
 }
 
@@ -347,7 +353,7 @@ Result<Message> get_assemble_frame(const pb::AssembleFrame& in) {
     if (!tiles) return tl::unexpected(tiles.error());
     m.tiles = std::move(*tiles);
     for (const Exchange& e : m.tiles)
-        if (const auto s = check_inside(e.region, {0, 0, m.width, m.height}, "tiles"); !s)
+        if (const auto s = check_inside(e.region, {0, 0, m.width, m.height}, "tiles", "picture"); !s)
             return tl::unexpected(s.error());
     return m;
 }
