@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kMagic{'S', 'W', 'T', 'H'};
 constexpr std::size_t kMaxNameBytes = 4096;
+// 73 years. Sums and differences of two times fit in 64 bits.
+constexpr std::int64_t kMaxTimeNs = std::int64_t{1} << 61;
 
 void put(std::uint8_t* to, std::uint32_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
@@ -190,6 +192,13 @@ Status check_inside(const Region& region, const Rect& place, const char* field, 
     return {};
 }
 
+bool is_time(std::int64_t ns) { return ns >= 0 && ns <= kMaxTimeNs; }
+
+Status check_time(std::int64_t ns, const char* field) {
+    if (!is_time(ns)) return fail("{}: outside of 0 to {}", field, kMaxTimeNs);
+    return {};
+}
+
 Status check_side(std::uint32_t side, const char* field) {
     if (side < 1 || side > static_cast<std::uint32_t>(kMaxPictureSide))
         return fail("{}: {}, the limits are 1 and {}", field, side, kMaxPictureSide);
@@ -215,6 +224,8 @@ Result<Message> get_report(const pb::Report& in) {
     if (in.spans_size() > 4096) return fail("spans: {}, the limit is 4096", in.spans_size());
     for (const pb::SpanRecord& s : in.spans()) {
         if (s.phase() >= kPhaseCount) return fail("spans: phase {}, the limit is {}", s.phase(), kPhaseCount);
+        for (const std::int64_t ns : {s.begin_ns(), s.end_ns(), s.cpu_ns()})
+            if (!is_time(ns)) return fail("spans: a time outside of 0 to {}", kMaxTimeNs);
         if (s.end_ns() < s.begin_ns()) return fail("spans: one ends before it begins");
         m.spans.push_back({static_cast<Phase>(s.phase()), Nanoseconds(s.begin_ns()), Nanoseconds(s.end_ns()),
                            Nanoseconds(s.cpu_ns())});
@@ -363,8 +374,14 @@ Result<Message> get_message(const pb::Head& head) {
         case pb::Head::kHello:
             return get_hello(head.hello());
         case pb::Head::kPing:
+            if (const auto s = check_time(head.ping().sent_ns(), "sent_ns"); !s)
+                return tl::unexpected(s.error());
             return Ping{Nanoseconds(head.ping().sent_ns())};
         case pb::Head::kPong:
+            if (const auto s = check_time(head.pong().sent_ns(), "sent_ns"); !s)
+                return tl::unexpected(s.error());
+            if (const auto s = check_time(head.pong().peer_ns(), "peer_ns"); !s)
+                return tl::unexpected(s.error());
             return Pong{Nanoseconds(head.pong().sent_ns()), Nanoseconds(head.pong().peer_ns())};
         case pb::Head::kServerSetup:
             return get_server_setup(head.server_setup());
