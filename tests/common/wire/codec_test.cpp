@@ -1,0 +1,147 @@
+#include "common/wire/codec.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "tests/common/wire/sample_messages.h"
+
+namespace swath {
+namespace {
+
+using namespace test;
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+std::string error_of(const auto& result) { return result ? "no error" : result.error().message; }
+
+TEST(Head, OfEveryKindOfMessageComesBackAsItWas) {
+    for (std::uint32_t seed = 0; seed < 300; ++seed) {
+        const std::vector<Message> messages = sample_messages(seed);
+        ASSERT_EQ(messages.size(), std::variant_size_v<Message>);
+        for (std::size_t kind = 0; kind < messages.size(); ++kind) {
+            ASSERT_EQ(messages[kind].index(), kind);
+            const auto back = decode_head(bytes_of(encode_head(messages[kind])));
+            ASSERT_TRUE(back.has_value()) << back.error().message << ", seed " << seed;
+            ASSERT_TRUE(*back == messages[kind]) << name(messages[kind]) << ", seed " << seed;
+        }
+    }
+}
+
+TEST(Head, OfEveryKindHasANameOfItsOwn) {
+    std::set<std::string_view> names;
+    for (const Message& message : sample_messages(0)) names.insert(name(message));
+    EXPECT_EQ(names.size(), std::variant_size_v<Message>);
+    EXPECT_EQ(name(Message(RenderFrame{})), "RenderFrame");
+    EXPECT_EQ(name(Message(Bye{})), "Bye");
+}
+
+TEST(Head, KeepsAWholeFrameTask) {
+    const RenderFrame task = sample_render_frame();
+    EXPECT_EQ(decode_head(bytes_of(encode_head(task))), Message(task));
+}
+
+TEST(Head, CarriesPathsThatAreNotUtf8) {
+    ServerSetup setup;
+    setup.servers = {"127.0.0.1:1"};
+    setup.model = "/models/caf\xe9.ply";
+    EXPECT_EQ(decode_head(bytes_of(encode_head(setup))), Message(setup));
+    // A cut within a character is no reason to lose the whole line.
+    const Failed failed{std::string(4095, 'x') + "\xc3\xa9"};
+    EXPECT_EQ(decode_head(bytes_of(encode_head(failed))), Message(Failed{failed.what.substr(0, 4096)}));
+}
+
+TEST(Head, CutsWhatFailedToItsLimit) {
+    const auto back = decode_head(bytes_of(encode_head(Failed{std::string(10'000, 'x')})));
+    EXPECT_EQ(back, Message(Failed{std::string(4096, 'x')}));
+}
+
+TEST(Head, OfNoKindIsRefused) {
+    EXPECT_EQ(error_of(decode_head({})), "a message of no kind that this version knows");
+    const std::string unknown("\xfa\x01\x00", 3);  // field 31, empty
+    EXPECT_EQ(error_of(decode_head(bytes_of(unknown))), "a message of no kind that this version knows");
+    EXPECT_EQ(error_of(decode_head(bytes_of(unknown).first(2))), "a garbled message head");
+}
+
+TEST(Head, ThatIsCutShortOrDamagedIsRefusedOrAMessage) {
+    std::mt19937 random(1);
+    for (std::uint32_t seed = 0; seed < 40; ++seed)
+        for (const Message& message : sample_messages(seed)) {
+            const std::string head = encode_head(message);
+            for (std::size_t length = 0; length < head.size(); ++length) {
+                const auto part = decode_head(bytes_of(head).first(length));
+                ASSERT_TRUE(part.has_value() || !part.error().message.empty());
+            }
+            for (int round = 0; round < 20 && !head.empty(); ++round) {
+                std::string damaged = head;
+                for (std::size_t i = random() % 3 + 1; i > 0; --i)
+                    damaged[random() % damaged.size()] = static_cast<char>(random());
+                const auto back = decode_head(bytes_of(damaged));
+                if (!back) continue;
+                // What is taken for a message can be sent on.
+                ASSERT_EQ(decode_head(bytes_of(encode_head(*back))), *back);
+            }
+        }
+}
+
+TEST(Head, OfRandomBytesIsRefusedOrAMessage) {
+    std::mt19937 random(2);
+    for (int round = 0; round < 20'000; ++round) {
+        std::string garbage(random() % 64, '\0');
+        for (char& c : garbage) c = static_cast<char>(random());
+        const auto back = decode_head(bytes_of(garbage));
+        ASSERT_TRUE(back.has_value() || !back.error().message.empty());
+    }
+}
+
+class PrefixTest : public testing::Test {
+  protected:
+    std::string refused(const std::array<std::uint8_t, kPrefixBytes>& bytes) {
+        return error_of(decode_prefix(bytes, limits_));
+    }
+    const WireLimits limits_{1000, 2000};
+    std::array<std::uint8_t, kPrefixBytes> bytes_ = encode_prefix({300, 0x01020304 % 2000});
+};
+
+TEST_F(PrefixTest, HasTheseBytes) {
+    const std::array<std::uint8_t, kPrefixBytes> expected{'S',  'W',  'T',  'H',  1,    0,    0,    0,
+                                                          0x04, 0x03, 0x02, 0x01, 0x08, 0x07, 0x06, 0x05};
+    EXPECT_EQ(encode_prefix({0x01020304, 0x05060708}), expected);
+    EXPECT_EQ(decode_prefix(expected, {0xffffffff, 0xffffffff}), (Prefix{0x01020304, 0x05060708}));
+}
+
+TEST_F(PrefixTest, MayAnnounceAsMuchAsTheLimits) {
+    EXPECT_EQ(decode_prefix(encode_prefix({1000, 2000}), limits_), (Prefix{1000, 2000}));
+    EXPECT_EQ(refused(encode_prefix({1001, 0})), "a message head of 1001 bytes, the limit is 1000");
+    EXPECT_EQ(refused(encode_prefix({0, 2001})), "a message body of 2001 bytes, the limit is 2000");
+    EXPECT_EQ(refused(encode_prefix({0xffffffff, 0xffffffff})),
+              "a message head of 4294967295 bytes, the limit is 1000");
+    EXPECT_EQ(error_of(decode_prefix(encode_prefix({1, 1}), kHelloLimits)),
+              "a message body of 1 bytes, the limit is 0");
+}
+
+TEST_F(PrefixTest, OfAnotherProtocolIsRefused) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        auto other = bytes_;
+        other[i] ^= 0x20;
+        EXPECT_EQ(refused(other), "not a Swath message");
+    }
+}
+
+TEST_F(PrefixTest, OfAnotherVersionNamesBoth) {
+    bytes_[4] = 2;
+    EXPECT_EQ(refused(bytes_), "speaks version 2 of the protocol, this program speaks 1");
+    bytes_[4] = 1;
+    bytes_[5] = 1;
+    EXPECT_EQ(refused(bytes_), "speaks version 257 of the protocol, this program speaks 1");
+}
+
+TEST_F(PrefixTest, WithBitsWhereNoneBelongIsRefused) {
+    bytes_[6] = 1;
+    EXPECT_EQ(refused(bytes_), "a garbled message prefix");
+}
+
+}  // namespace
+}  // namespace swath

@@ -1,0 +1,272 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "common/scene/objects.h"
+#include "common/wire/codec.h"
+#include "swath.pb.h"
+#include "tests/common/wire/sample_messages.h"
+
+// Messages that obey the schema and break a limit: each is refused by a line that names the field and the
+// limit.
+
+namespace swath {
+namespace {
+
+using namespace test;
+
+constexpr std::int64_t kTooLate = (std::int64_t{1} << 61) + 1;
+
+std::string refused(const pb::Head& head) {
+    const std::string bytes = head.SerializeAsString();
+    const auto message = decode_head({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    return message ? "no error" : message.error().message;
+}
+
+pb::Head head_of(const Message& message) {
+    pb::Head head;
+    EXPECT_TRUE(head.ParseFromString(encode_head(message)));
+    return head;
+}
+
+// Fields of a valid message, changed one at a time.
+template <class Part>
+class Table {
+  public:
+    Table(const Message& valid, Part* (pb::Head::*part)()) : valid_(head_of(valid)), part_(part) {
+        EXPECT_EQ(refused(valid_), "no error");
+    }
+    void expect(const std::function<void(Part&)>& change, const std::string& line) const {
+        pb::Head head = valid_;
+        change(*(head.*part_)());
+        EXPECT_EQ(refused(head), line);
+    }
+
+  private:
+    pb::Head valid_;
+    Part* (pb::Head::*part_)();
+};
+
+void set_rects(google::protobuf::RepeatedField<std::int32_t>& field, const std::vector<int>& numbers) {
+    field.Clear();
+    for (const int n : numbers) field.Add(n);
+}
+
+TEST(WireLimit, OfHello) {
+    const Table<pb::Hello> hello(Hello{Role::kServer, 1, server_id(2), 3, 4}, &pb::Head::mutable_hello);
+    hello.expect([](auto& m) { m.set_role(0); }, "a garbled hello message: role: 0 is none");
+    hello.expect([](auto& m) { m.set_role(4); }, "a garbled hello message: role: 4 is none");
+    hello.expect([](auto& m) { m.set_server(1024); },
+                 "a garbled hello message: server: server 1024, the limit is 1024");
+}
+
+TEST(WireLimit, OfTimes) {
+    const Table<pb::Ping> ping(Ping{Nanoseconds(5)}, &pb::Head::mutable_ping);
+    const std::string limit = ": outside of 0 to 2305843009213693952";
+    ping.expect([](auto& m) { m.set_sent_ns(-1); }, "a garbled ping message: sent_ns" + limit);
+    ping.expect([](auto& m) { m.set_sent_ns(kTooLate); }, "a garbled ping message: sent_ns" + limit);
+    const Table<pb::Pong> pong(Pong{Nanoseconds(5), Nanoseconds(6)}, &pb::Head::mutable_pong);
+    pong.expect([](auto& m) { m.set_sent_ns(std::numeric_limits<std::int64_t>::min()); },
+                "a garbled pong message: sent_ns" + limit);
+    pong.expect([](auto& m) { m.set_peer_ns(std::numeric_limits<std::int64_t>::max()); },
+                "a garbled pong message: peer_ns" + limit);
+}
+
+TEST(WireLimit, OfServerSetup) {
+    ServerSetup valid;
+    valid.servers = {"a:1", "b:2"};
+    valid.server = server_id(1);
+    const Table<pb::ServerSetup> setup(valid, &pb::Head::mutable_server_setup);
+    const std::string in = "a garbled server_setup message: ";
+    setup.expect([](auto& m) { m.set_server(2000); }, in + "server: server 2000, the limit is 1024");
+    setup.expect([](auto& m) { m.set_server(2); }, in + "server: 2 of 2");
+    setup.expect([](auto& m) { m.set_model(std::string(4097, 'x')); },
+                 in + "model: 4097 bytes, the limit is 4096");
+    setup.expect([](auto& m) { m.set_digest(std::string(31, 'x')); },
+                 in + "digest: 31 bytes where 32 are expected");
+    setup.expect([](auto& m) { m.set_octree_depth(kMaxOctreeDepth + 1); },
+                 in + "octree_depth: 11, the limit is 10");
+    setup.expect([](auto& m) { m.set_renderer(0); }, in + "renderer: 0 is none");
+    setup.expect([](auto& m) { m.set_renderer(3); }, in + "renderer: 3 is none");
+    setup.expect([](auto& m) { m.clear_servers(); }, in + "servers: 0, the limits are 1 and 1024");
+    setup.expect(
+        [](auto& m) {
+            for (int i = 0; i < 1023; ++i) m.add_servers("c:3");
+        },
+        in + "servers: 1025, the limits are 1 and 1024");
+    setup.expect([](auto& m) { m.set_servers(1, std::string(5000, 'x')); },
+                 in + "servers: 5000 bytes, the limit is 4096");
+    setup.expect([](auto& m) { m.set_display(std::string(5000, 'x')); },
+                 in + "display: 5000 bytes, the limit is 4096");
+    setup.expect([](auto& m) { m.set_frames_in_flight(0); },
+                 in + "frames_in_flight: 0, the limits are 1 and 8");
+    setup.expect([](auto& m) { m.set_frames_in_flight(9); },
+                 in + "frames_in_flight: 9, the limits are 1 and 8");
+}
+
+TEST(WireLimit, OfDisplaySetup) {
+    const Table<pb::DisplaySetup> setup(DisplaySetup{}, &pb::Head::mutable_display_setup);
+    const std::string in = "a garbled display_setup message: ";
+    setup.expect([](auto& m) { m.set_servers(0); }, in + "servers: 0, the limits are 1 and 1024");
+    setup.expect([](auto& m) { m.set_servers(1025); }, in + "servers: 1025, the limits are 1 and 1024");
+    setup.expect([](auto& m) { m.set_format(3); }, in + "format: 3 is none");
+    setup.expect([](auto& m) { m.set_frames_in_flight(9); },
+                 in + "frames_in_flight: 9, the limits are 1 and 8");
+}
+
+TEST(WireLimit, OfTextsForPeople) {
+    const Table<pb::Ready> ready(Ready{1, 2, "llvmpipe"}, &pb::Head::mutable_ready);
+    ready.expect([](auto& m) { m.set_description(std::string(4097, 'x')); },
+                 "a garbled ready message: description: 4097 bytes, the limit is 4096");
+    const Table<pb::Failed> failed(Failed{"why"}, &pb::Head::mutable_failed);
+    failed.expect([](auto& m) { m.set_what(std::string(4097, 'x')); },
+                  "a garbled failed message: what: 4097 bytes, the limit is 4096");
+}
+
+class RenderFrameLimit : public testing::Test {
+  protected:
+    void expect(const std::function<void(pb::RenderFrame&)>& change, const std::string& line) const {
+        task_.expect(change, "a garbled render_frame message: " + line);
+    }
+    const Table<pb::RenderFrame> task_{sample_render_frame(), &pb::Head::mutable_render_frame};
+};
+
+TEST_F(RenderFrameLimit, OfTheView) {
+    const std::string numbers = "view: a matrix of 16 and a vector of 3 are expected";
+    expect([](auto& m) { m.clear_clip_from_model(); }, numbers);
+    expect([](auto& m) { m.add_clip_from_model(0); }, numbers);
+    expect([](auto& m) { m.clear_to_light(); }, numbers);
+    expect([](auto& m) { m.set_clip_from_model(7, std::numeric_limits<float>::infinity()); },
+           "clip_from_model: not a finite number");
+    expect([](auto& m) { m.set_to_light(2, std::numeric_limits<float>::quiet_NaN()); },
+           "to_light: not a finite number");
+    expect([](auto& m) { m.set_width(0); }, "width: 0, the limits are 1 and 16384");
+    expect([](auto& m) { m.set_height(16385); }, "height: 16385, the limits are 1 and 16384");
+    expect([](auto& m) { m.set_height(0x80000001); }, "height: 2147483649, the limits are 1 and 16384");
+}
+
+TEST_F(RenderFrameLimit, OfTheGroup) {
+    expect([](auto& m) { m.set_group_steps(1, 0); }, "group: ids are not ascending");
+    expect([](auto& m) { m.set_group_steps(0, kMaxObjects); },
+           "group: object 2147483647, the limit is 2147483647");
+    expect(
+        [](auto& m) {
+            m.set_group_steps(0, 5);
+            m.set_group_steps(1, 0xffffffff);  // would be 4 in 32 bits
+        },
+        "group: object 4294967300, the limit is 2147483647");
+}
+
+TEST_F(RenderFrameLimit, OfRectangles) {
+    const std::string sides = ": a rectangle that is empty or leaves 0 to 16384";
+    expect([](auto& m) { m.clear_content(); }, "content: one rectangle is expected");
+    expect([](auto& m) { set_rects(*m.mutable_content(), {0, 0, 65, 48}); }, "content: outside the viewport");
+    expect(
+        [](auto& m) {
+            set_rects(*m.mutable_content(), {-2147483647 - 1, 0, 2147483647, 48});
+        },
+        "content: outside the viewport");
+    expect([](auto& m) { m.add_final_region(1); }, "final_region: 9 numbers are no rectangles");
+    expect([](auto& m) { set_rects(*m.mutable_final_region(), {3, 3, 3, 9}); }, "final_region" + sides);
+    expect([](auto& m) { set_rects(*m.mutable_final_region(), {-1, 0, 3, 9}); }, "final_region" + sides);
+    expect([](auto& m) { set_rects(*m.mutable_final_region(), {0, 0, 16385, 9}); }, "final_region" + sides);
+    expect(
+        [](auto& m) {
+            set_rects(*m.mutable_final_region(), {0, 0, 65, 9});
+        },
+        "final_region: a rectangle outside the viewport");
+    expect(
+        [](auto& m) {
+            set_rects(*m.mutable_final_region(), {0, 0, 64, 48, 0, 0, 1, 1});
+        },
+        "final_region: 3073 pixels, the viewport has 3072");
+}
+
+TEST_F(RenderFrameLimit, OfExchanges) {
+    expect([](auto& m) { m.mutable_outgoing(0)->set_server(1024); },
+           "outgoing: server 1024, the limit is 1024");
+    expect([](auto& m) { m.mutable_outgoing(0)->set_server(2); }, "outgoing: servers are not ascending");
+    expect(
+        [](auto& m) {
+            for (std::uint32_t i = 0; i < 1025; ++i) m.add_incoming()->set_server(i);
+        },
+        "incoming: 1026 entries, the limit is 1024");
+    expect(
+        [](auto& m) {
+            set_rects(*m.mutable_incoming(0)->mutable_region(), {1, 2, 3});
+        },
+        "incoming: 3 numbers are no rectangles");
+    expect(
+        [](auto& m) {
+            set_rects(*m.mutable_outgoing(0)->mutable_region(), {30, 10, 41, 24});
+        },
+        "outgoing: a rectangle outside the content");
+    expect(
+        [](auto& m) {
+            set_rects(*m.mutable_outgoing(0)->mutable_region(), {60, 10, 65, 24});
+        },
+        "outgoing: a rectangle outside the content");
+    expect(
+        [](auto& m) {
+            set_rects(*m.mutable_outgoing(0)->mutable_region(), {10, 10, 40, 30, 10, 10, 40, 30});
+        },
+        "outgoing: 1200 pixels, the content has 600");
+}
+
+// Neither drawn nor cleared: there is no memory for it.
+TEST_F(RenderFrameLimit, OfIncomingPixelsIsWhatTheServerDrawsAndOwns) {
+    expect(
+        [](auto& m) {
+            set_rects(*m.mutable_incoming(0)->mutable_region(), {39, 0, 41, 3});
+        },
+        "incoming: a rectangle outside the content and final region");
+}
+
+TEST(WireLimit, OfAssembleFrame) {
+    const Table<pb::AssembleFrame> task(
+        AssembleFrame{
+            3, 64, 48, {1, 2, 3}, {{server_id(0), {{0, 0, 32, 48}}}, {server_id(4), {{32, 0, 64, 48}}}}},
+        &pb::Head::mutable_assemble_frame);
+    const std::string in = "a garbled assemble_frame message: ";
+    task.expect([](auto& m) { m.set_width(0); }, in + "width: 0, the limits are 1 and 16384");
+    task.expect([](auto& m) { m.set_height(16385); }, in + "height: 16385, the limits are 1 and 16384");
+    task.expect([](auto& m) { m.set_background(0x1000000); },
+                in + "background: 0x1000000, the limit is 0xffffff");
+    task.expect([](auto& m) { m.mutable_tiles(1)->set_server(0); }, in + "tiles: servers are not ascending");
+    task.expect(
+        [](auto& m) {
+            set_rects(*m.mutable_tiles(1)->mutable_region(), {32, 0, 65, 48});
+        },
+        in + "tiles: a rectangle outside the picture");
+    task.expect(
+        [](auto& m) {
+            set_rects(*m.mutable_tiles(1)->mutable_region(), {0, 0, 64, 48, 0, 0, 1, 1});
+        },
+        in + "tiles: 3073 pixels, the picture has 3072");
+}
+
+TEST(WireLimit, OfReports) {
+    ServerReport valid;
+    valid.spans = {{Phase::kCull, Nanoseconds(1), Nanoseconds(2), Nanoseconds(1)}};
+    const Table<pb::Report> report(valid, &pb::Head::mutable_server_report);
+    const std::string in = "a garbled server_report message: ";
+    const std::string times = "spans: a time outside of 0 to 2305843009213693952";
+    report.expect([](auto& m) { m.mutable_spans(0)->set_phase(kPhaseCount); },
+                  in + "spans: phase 11, the limit is 11");
+    report.expect([](auto& m) { m.mutable_spans(0)->set_begin_ns(3); },
+                  in + "spans: one ends before it begins");
+    report.expect([](auto& m) { m.mutable_spans(0)->set_begin_ns(-1); }, in + times);
+    report.expect([](auto& m) { m.mutable_spans(0)->set_end_ns(kTooLate); }, in + times);
+    report.expect([](auto& m) { m.mutable_spans(0)->set_cpu_ns(kTooLate); }, in + times);
+    report.expect(
+        [](auto& m) {
+            for (int i = 0; i < 4096; ++i) *m.add_spans() = m.spans(0);
+        },
+        in + "spans: 4097, the limit is 4096");
+    report.expect([](auto& m) { m.add_counters(1); }, in + "counters: 8 where 7 are expected");
+    report.expect([](auto& m) { m.clear_counters(); }, in + "counters: 0 where 7 are expected");
+}
+
+}  // namespace
+}  // namespace swath
