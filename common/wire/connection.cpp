@@ -1,9 +1,11 @@
 #include "common/wire/connection.h"
 
 #include <boost/asio/buffer.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
 #include <new>
+#include <utility>
 
 #include "common/wire/address.h"
 
@@ -83,15 +85,18 @@ void Connection::write_queued() {
     asio::async_write(socket_, buffers, all,
                       [self = shared_from_this()](const boost::system::error_code& error, std::size_t) {
                           if (!self->open_) return;
+                          if (error) {
+                              // Its end is closed. What it said last may still lie unread, and says why.
+                              if (self->closing_) self->end(self->close_reason_);
+                              return;
+                          }
                           for (const Outgoing& out : self->writing_)
                               self->queued_bytes_ -= out.head.size() + out.body.size();
                           self->writing_.clear();
-                          if (error) {
-                              self->end(fail("{}", error.message()));
-                          } else if (!self->queue_.empty()) {
+                          if (!self->queue_.empty()) {
                               self->write_queued();
                           } else if (self->closing_) {
-                              self->end(self->close_reason_);
+                              self->hang_up();
                           }
                       });
 }
@@ -99,7 +104,8 @@ void Connection::write_queued() {
 void Connection::read_prefix() {
     asio::async_read(socket_, asio::buffer(prefix_),
                      [self = shared_from_this()](const boost::system::error_code& error, std::size_t got) {
-                         if (!self->open_ || self->closing_) return;
+                         if (!self->open_) return;
+                         if (self->closing_) return self->drain(error);
                          if (error == asio::error::eof) {
                              self->end(fail("{}", got == 0 ? "closed the connection"
                                                            : "closed the connection within a message"));
@@ -109,8 +115,9 @@ void Connection::read_prefix() {
                          self->last_received_ = self->clock_.now();
                          const auto prefix = decode_prefix(
                              self->prefix_, self->introduced_ ? self->options_.limits : kHelloLimits);
-                         if (!prefix) return self->fail_with(prefix.error());
-                         self->read_rest(*prefix);
+                         if (prefix) return self->read_rest(*prefix);
+                         self->fail_with(prefix.error());
+                         if (self->open_) self->drain({});
                      });
 }
 
@@ -119,7 +126,9 @@ void Connection::read_rest(const Prefix& prefix) {
         head_.resize(prefix.head_bytes);
         body_ = Buffer(prefix.body_bytes);
     } catch (const std::bad_alloc&) {
-        return fail_with({fmt::format("a message of {} bytes: not enough memory for it", prefix.body_bytes)});
+        fail_with({fmt::format("a message of {} bytes: not enough memory for it", prefix.body_bytes)});
+        if (open_) drain({});
+        return;
     }
     const std::array<asio::mutable_buffer, 2> buffers{asio::buffer(head_),
                                                       asio::buffer(body_.data(), body_.size())};
@@ -132,7 +141,8 @@ void Connection::read_rest(const Prefix& prefix) {
     };
     asio::async_read(socket_, buffers, all,
                      [self = shared_from_this()](const boost::system::error_code& error, std::size_t) {
-                         if (!self->open_ || self->closing_) return;
+                         if (!self->open_) return;
+                         if (self->closing_) return self->drain(error);
                          if (error == asio::error::eof)
                              return self->end(fail("closed the connection within a message"));
                          if (error) return self->end(fail("{}", error.message()));
@@ -141,18 +151,19 @@ void Connection::read_rest(const Prefix& prefix) {
 }
 
 void Connection::on_received() {
-    auto message = decode_head(head_);
-    if (!message) return fail_with(message.error());
     // What a peer asks for may be within the limits and still too much for this machine: that ends the peer,
     // not us.
     Status status;
     try {
-        status = dispatch(std::move(*message));
+        auto message = decode_head(head_);
+        status = message ? dispatch(std::move(*message)) : tl::unexpected(message.error());
     } catch (const std::bad_alloc&) {
         status = fail("not enough memory for it");
     }
-    if (!status) return fail_with(status.error());
-    if (open_ && !closing_) read_prefix();
+    if (!status) fail_with(status.error());
+    if (!open_) return;
+    if (closing_) return drain({});
+    read_prefix();
 }
 
 Status Connection::dispatch(Message&& message) {
@@ -205,6 +216,31 @@ void Connection::watch() {
     });
 }
 
+// Reads on, to no end but the peer's: closing a socket with unread bytes resets the connection, and a reset
+// can overtake the last words that we have just sent. `error` is that of the read before.
+void Connection::drain(const boost::system::error_code& error) {
+    if (error) {
+        drained_ = true;
+        if (hung_up_) shut();
+        return;
+    }
+    head_.resize(std::size_t{64} << 10);
+    socket_.async_read_some(asio::buffer(head_),
+                            [self = shared_from_this()](const boost::system::error_code& next, std::size_t) {
+                                if (self->open_) self->drain(next);
+                            });
+}
+
+// Everything is sent: nothing more to say. The socket is closed when the peer has closed its end, or after
+// the silence limit.
+void Connection::hang_up() {
+    hung_up_ = true;
+    boost::system::error_code ignored;
+    socket_.shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+    notify(close_reason_);
+    if (drained_) shut();
+}
+
 void Connection::fail_with(const Error& error) {
     if (!open_ || closing_) return;
     close_reason_ = tl::unexpected(error);
@@ -220,14 +256,22 @@ void Connection::finish() {
 }
 
 void Connection::close() {
-    handlers_.on_closed = nullptr;
+    if (!open_) return;
     shut();
+    handlers_.on_closed = nullptr;
+    notify({});
 }
 
 void Connection::end(const Status& why) {
     if (!open_) return;
-    auto on_closed = std::move(handlers_.on_closed);
     shut();
+    notify(why);
+}
+
+void Connection::notify(const Status& why) {
+    const auto on_closed = std::exchange(handlers_.on_closed, nullptr);
+    // A callback may be running and own what it captures: let it go only when it has returned.
+    asio::post(socket_.get_executor(), [self = shared_from_this()] { self->handlers_ = {}; });
     if (on_closed) on_closed(why);
 }
 
@@ -238,8 +282,6 @@ void Connection::shut() {
     boost::system::error_code ignored;
     socket_.shutdown(asio::ip::tcp::socket::shutdown_both, ignored);
     socket_.close(ignored);
-    // A callback may be running and own what it captures: let it go only when it has returned.
-    asio::post(socket_.get_executor(), [self = shared_from_this()] { self->handlers_ = {}; });
 }
 
 }  // namespace swath

@@ -51,9 +51,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
     // caller gives the peer up.
     [[nodiscard]] Result<std::size_t> offer(const Message& message, Buffer body = {});
 
-    // Tells the peer why (Failed), then closes; on_closed follows with the error.
+    // Tells the peer why (Failed), then closes; on_closed follows with the error. The socket itself lives on
+    // until the peer has closed its end, silence_limit at most.
     void fail_with(const Error& error);
-    // Says Bye, sends what is queued, closes. Without on_closed.
+    // Says Bye, sends what is queued, closes likewise. Without on_closed.
     void finish();
     // At once, without on_closed.
     void close();
@@ -77,7 +78,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
     Status dispatch(Message&& message);
     void write_queued();
     void watch();
+    void drain(const boost::system::error_code& error);
+    void hang_up();
     void end(const Status& why);
+    void notify(const Status& why);
     void shut();
 
     boost::asio::ip::tcp::socket socket_;
@@ -90,7 +94,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     bool open_ = true;
     bool introduced_ = false;
     WireLimits peer_limits_ = kHelloLimits;
-    bool closing_ = false;  // the queue is being flushed; nothing is read any more
+    bool closing_ = false;  // the queue is being flushed; what comes is thrown away
+    bool hung_up_ = false;  // it is flushed
+    bool drained_ = false;  // the peer has closed its end too
     Status close_reason_;
 
     std::array<std::uint8_t, kPrefixBytes> prefix_{};
