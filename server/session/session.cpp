@@ -102,14 +102,20 @@ Status ServerSession::on_setup(const ServerSetup& setup) {
             if (!self->draw_thread_) return;
             if (*mesh) return self->load(std::move(**mesh));
             spdlog::info("model {}: asking the client for it", self->setup_.model);
-            self->tell_client(NeedModel{0});
+            self->need_model_part();
         });
     });
     return {};
 }
 
+void ServerSession::need_model_part() {
+    part_awaited_ = true;
+    tell_client(NeedModel{blob_.size()});
+}
+
 Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
-    if (!set_up_ || ready_) return fail("ModelPart is not expected now");
+    if (!part_awaited_) return fail("ModelPart is not expected now");
+    part_awaited_ = false;
     if (part.offset != blob_.size())
         return fail("ModelPart: offset {} where {} was asked for", part.offset, blob_.size());
     if (body.empty() || body.size() > setup_.blob_bytes - blob_.size())
@@ -117,7 +123,7 @@ Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
                     setup_.blob_bytes - blob_.size());
     blob_.append(body.data(), body.size());
     if (blob_.size() < setup_.blob_bytes) {
-        tell_client(NeedModel{blob_.size()});
+        need_model_part();
         return {};
     }
     draw_thread_->run([self = shared_from_this()] {

@@ -43,6 +43,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
 
     Status from_client(Message&& message, Buffer&& body);
     Status on_setup(const ServerSetup& setup);
+    void need_model_part();
     Status on_model_part(const ModelPart& part, const Buffer& body);
     void load(Mesh mesh);
     Status on_connect();
@@ -70,10 +71,11 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
 
     ServerSetup setup_;
     bool set_up_ = false;
+    bool part_awaited_ = false;
     bool ready_ = false;
     bool connecting_ = false;
     bool connected_ = false;
-    Buffer blob_;  // of a model that the client sends
+    Buffer blob_;               // of a model that the client sends
     std::size_t objects_ = 0;
     std::vector<std::shared_ptr<Connection>> peers_;  // by ServerId; null for ourselves and until connected
     std::shared_ptr<Connection> display_;
