@@ -185,6 +185,7 @@ void ServerSession::connect(const std::string& text, Role role, ServerId id) {
             connection->start({[self, role, id](const Hello& hello) {
                                    if (const auto status = self->on_peer_hello(role, id, hello); !status)
                                        return status;
+                                   ++self->answered_;
                                    self->report_if_connected();
                                    return Status{};
                                },
@@ -213,9 +214,10 @@ Status ServerSession::on_peer(const std::shared_ptr<Connection>& connection, con
 }
 
 void ServerSession::report_if_connected() {
-    if (!connecting_ || connected_ || !display_) return;
-    for (std::size_t i = 0; i < peers_.size(); ++i)
-        if (server_id(i) != setup_.server && !peers_[i]) return;
+    // Whom it connected to must have said Hello: before, they take no pixels. The others came with theirs.
+    if (!connecting_ || connected_ || answered_ < 1 + index(setup_.server)) return;
+    for (std::size_t i = index(setup_.server) + 1; i < peers_.size(); ++i)
+        if (!peers_[i]) return;
     connected_ = true;
     tell_client(Connected{});
 }

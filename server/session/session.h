@@ -75,6 +75,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     bool ready_ = false;
     bool connecting_ = false;
     bool connected_ = false;
+    std::size_t answered_ = 0;  // of those it connected to: the display and the servers with smaller ids
     Buffer blob_;               // of a model that the client sends
     std::size_t objects_ = 0;
     std::vector<std::shared_ptr<Connection>> peers_;  // by ServerId; null for ourselves and until connected
