@@ -1,0 +1,233 @@
+#include <gmock/gmock.h>
+
+#include "tests/server/server_fixture.h"
+
+// Setting up: the model, the connections, and who may come and go.
+
+namespace swath::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST_F(ServerTest, AsksForAModelThatItLacks) {
+    const auto client = ready_client(setup());
+    EXPECT_GT(objects_, 1u);
+    EXPECT_FALSE(client->closed.has_value());
+}
+
+TEST_F(ServerTest, AsksForTheModelPartByPart) {
+    const auto one = client();
+    one->send(setup());
+    const std::size_t half = blob_.size() / 2;
+    EXPECT_EQ(one->expect<NeedModel>(), NeedModel{0});
+    Buffer first, second;
+    first.append(blob_.data(), half);
+    second.append(blob_.data() + half, blob_.size() - half);
+    one->send(ModelPart{0}, std::move(first));
+    EXPECT_EQ(one->expect<NeedModel>(), NeedModel{half});
+    one->send(ModelPart{half}, std::move(second));
+    const Ready ready = one->expect<Ready>();
+    EXPECT_EQ(ready.triangles, 12u);
+    EXPECT_EQ(ready.description, "a fake");
+}
+
+TEST_F(ServerTest, KeepsAModelForTheNextClient) {
+    ready_client(setup())->connection->finish();
+    const auto two = client();
+    two->send(setup());
+    two->expect<Ready>();  // without asking
+}
+
+TEST_F(ServerTest, RefusesAModelWithAnotherDigest) {
+    ServerSetup wrong = setup();
+    wrong.digest[7] ^= 1;
+    const auto one = client();
+    one->send(wrong);
+    one->expect<NeedModel>();
+    one->send(ModelPart{0}, model_bytes());
+    EXPECT_EQ(one->ending(), "the model that arrived does not have the announced SHA-256");
+    EXPECT_FALSE(std::filesystem::exists(options_.cache));
+}
+
+TEST_F(ServerTest, RefusesAModelThatIsNone) {
+    Buffer garbage(100);
+    std::fill(garbage.data(), garbage.data() + 100, std::uint8_t{'x'});
+    ServerSetup wrong = setup();
+    wrong.digest = digest(garbage.bytes());
+    wrong.blob_bytes = 100;
+    const auto one = client();
+    one->send(wrong);
+    one->expect<NeedModel>();
+    one->send(ModelPart{0}, std::move(garbage));
+    EXPECT_EQ(one->ending(), "model blob: does not start with SWMB");
+}
+
+TEST_F(ServerTest, RefusesAModelAboveItsLimit) {
+    ServerSetup large = setup();
+    large.blob_bytes = (1 << 20) + 1;
+    const auto one = client();
+    one->send(large);
+    EXPECT_THAT(one->ending(), HasSubstr("1048577 bytes, this server's limit is 1048576"));
+}
+
+TEST_F(ServerTest, RefusesPartsThatDoNotFit) {
+    const auto ending_after = [&](std::uint64_t offset, std::size_t bytes) {
+        const auto one = client();
+        one->send(setup());
+        one->expect<NeedModel>();
+        one->send(ModelPart{offset}, Buffer(bytes));
+        return one->ending();
+    };
+    const std::string size = std::to_string(blob_.size());
+    EXPECT_EQ(ending_after(1, 10), "ModelPart: offset 1 where 0 was asked for");
+    EXPECT_EQ(ending_after(0, 0), "ModelPart: 0 bytes where " + size + " are missing");
+    EXPECT_EQ(ending_after(0, blob_.size() + 1),
+              "ModelPart: " + std::to_string(blob_.size() + 1) + " bytes where " + size + " are missing");
+}
+
+TEST_F(ServerTest, RefusesPartsThatItDidNotAskFor) {
+    const auto early = client();
+    early->send(ModelPart{0}, model_bytes());
+    EXPECT_EQ(early->ending(), "ModelPart is not expected now");
+    const auto late = ready_client(setup());
+    late->send(ModelPart{0}, model_bytes());
+    EXPECT_EQ(late->ending(), "ModelPart is not expected now");
+}
+
+TEST_F(ServerTest, RefusesPartsWhileItLoadsTheModel) {
+    std::atomic<bool> loading = false;
+    std::promise<void> go_on;
+    before_renderer_ = [&] {
+        loading = true;
+        go_on.get_future().wait();
+        return Status();
+    };
+    const auto one = client();
+    one->send(setup());
+    one->expect<NeedModel>();
+    one->send(ModelPart{0}, model_bytes());
+    loop_.run_until([&] { return loading.load(); });
+    one->send(ModelPart{0}, model_bytes());
+    go_on.set_value();  // before the loop runs: the session's end waits for the renderer, in this thread
+    EXPECT_EQ(one->ending(), "ModelPart is not expected now");
+}
+
+TEST_F(ServerTest, SaysWhyItHasNoRenderer) {
+    before_renderer_ = [] { return Status(fail("EGL: no surfaceless platform")); };
+    const auto one = client();
+    one->send(setup());
+    one->expect<NeedModel>();
+    one->send(ModelPart{0}, model_bytes());
+    EXPECT_EQ(one->ending(), "EGL: no surfaceless platform");
+}
+
+TEST_F(ServerTest, RefusesMessagesOutOfTurn) {
+    const auto ending_after = [&](const Message& message) {
+        const auto one = client();
+        one->send(message);
+        return one->ending();
+    };
+    EXPECT_EQ(ending_after(Connect{}), "Connect is not expected now");
+    EXPECT_EQ(ending_after(DisplaySetup{}), "DisplaySetup is not expected from a client");
+    objects_ = 1;
+    EXPECT_EQ(ending_after(task(0)), "RenderFrame before Connected");
+    const auto twice = ready_client(setup());
+    twice->send(setup());
+    EXPECT_EQ(twice->ending(), "ServerSetup came twice");
+}
+
+TEST_F(ServerTest, ConnectsToTheDisplayAndServersWithSmallerIds) {
+    const auto one = connected_client(1, 3);
+    EXPECT_EQ(display_->hello, hello_of(Role::kServer, kSession, 1));
+    EXPECT_EQ(others_[0]->hello, hello_of(Role::kServer, kSession, 1));
+    EXPECT_EQ(others_[2]->hello, hello_of(Role::kServer, kSession, 1));
+    one->send(Connect{});
+    EXPECT_EQ(one->ending(), "Connect is not expected now");
+}
+
+// A connection that is merely open takes no pixels yet.
+TEST_F(ServerTest, IsNotConnectedBeforeAllHaveSaidHello) {
+    const auto one = ready_client(setup(0, 2));
+    one->send(Connect{});
+    RawPeer display(loop_, display_door_.next());
+    display.read(1);
+    const auto other = come(hello_of(Role::kServer, kSession, 1));
+    loop_.run_until([&] { return other->connection->has_clock_offset(); });
+    one->send(task(0));
+    EXPECT_EQ(one->ending(), "RenderFrame before Connected");
+}
+
+TEST_F(ServerTest, SaysWhereItCannotConnect) {
+    ServerSetup nowhere = setup();
+    nowhere.display = "nowhere";
+    const auto one = ready_client(nowhere);
+    one->send(Connect{});
+    EXPECT_EQ(one->ending(), "address 'nowhere': expected HOST:PORT");
+
+    Loop other;
+    nowhere.display = to_string(Door(other).address());  // closed by now
+    const auto two = ready_client(nowhere);
+    two->send(Connect{});
+    EXPECT_EQ(two->ending(),
+              "cannot connect to " + nowhere.display + ": Connection refused (tried for 0.2 s)");
+}
+
+TEST_F(ServerTest, SaysWhoAnswersInsteadOfTheDisplay) {
+    const auto ending_with = [&](const Hello& hello) {
+        const auto one = ready_client(setup());
+        one->send(Connect{});
+        const Peer wrong(loop_, display_door_.next(), hello);
+        return one->ending();
+    };
+    EXPECT_THAT(ending_with(hello_of(Role::kServer, kSession)),
+                testing::AllOf(StartsWith("lost the display ("),
+                               HasSubstr("): a server answers where a display is expected")));
+    EXPECT_THAT(ending_with(hello_of(Role::kDisplay, 41)),
+                HasSubstr("): this display is in another session"));
+}
+
+TEST_F(ServerTest, TurnsAwayServersOfOtherSessionsAndStrangers) {
+    const auto one = connected_client(1, 3);
+    const auto turned_away = [&](std::uint64_t session, std::size_t server) {
+        return come(hello_of(Role::kServer, session, server))->ending();
+    };
+    EXPECT_EQ(turned_away(41, 2), "this server is in another session");
+    EXPECT_EQ(turned_away(kSession, 2), "server 2 is not expected here");  // there is one already
+    EXPECT_EQ(turned_away(kSession, 0), "server 0 is not expected here");  // we connect to that one
+    EXPECT_EQ(turned_away(kSession, 3), "server 3 is not expected here");
+    EXPECT_FALSE(one->closed.has_value());
+}
+
+TEST_F(ServerTest, TellsTheClientWhichPeerIsLost) {
+    const auto ending_without = [&](std::size_t lost) {
+        const auto one = connected_client(1, 3);
+        loop_.run_until([&] { return others_[lost]->connection->has_clock_offset(); });
+        others_[lost]->connection->close();
+        return one->ending();
+    };
+    EXPECT_THAT(ending_without(0), testing::MatchesRegex("lost server 0 \\(.*\\): closed the connection"));
+    EXPECT_THAT(ending_without(2), testing::MatchesRegex("lost server 2 \\(.*\\): closed the connection"));
+}
+
+TEST_F(ServerTest, TellsTheClientThatTheDisplayIsLost) {
+    const auto one = connected_client();
+    display_->connection->fail_with({"out of paper"});
+    EXPECT_THAT(one->ending(), testing::MatchesRegex("lost the display \\(.*\\): out of paper"));
+}
+
+TEST_F(ServerTest, ServesTheNextClientAfterOneThatVanished) {
+    {
+        const auto one = connected_client(0, 2);
+        one->send(task(0));
+    }
+    EXPECT_EQ(display_->ending(), "");  // a Bye
+    EXPECT_EQ(others_[1]->ending(), "");
+    const auto two = connected_client();
+    two->send(task(0));
+    display_->expect<TilePixels>();
+    two->expect<ServerReport>();
+}
+
+}  // namespace
+}  // namespace swath::test
