@@ -39,18 +39,19 @@ Listener::Listener(tcp::acceptor acceptor, std::string host, OnSocket on_socket)
 Address Listener::address() const { return {host_, acceptor_.local_endpoint().port()}; }
 
 void Listener::accept() {
-    // Destroying the acceptor cancels the wait; the handler then touches nothing.
-    acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
-        if (error == asio::error::operation_aborted) return;
+    // Destroying the acceptor cancels the wait, but not a socket that has been accepted and awaits its turn.
+    acceptor_.async_accept([this, alive = std::weak_ptr<char>(alive_)](const boost::system::error_code& error,
+                                                                       tcp::socket socket) {
+        if (alive.expired() || error == asio::error::operation_aborted) return;
         if (!error) {
             on_socket_(std::move(socket));
-            accept();
+            if (!alive.expired()) accept();
             return;
         }
         // Out of descriptors, say: wait instead of spinning.
         pause_.expires_after(std::chrono::milliseconds(100));
-        pause_.async_wait([this](const boost::system::error_code& stopped) {
-            if (!stopped) accept();
+        pause_.async_wait([this, alive](const boost::system::error_code& stopped) {
+            if (!stopped && !alive.expired()) accept();
         });
     });
 }

@@ -28,6 +28,8 @@ class Listener {
     std::string host_;
     OnSocket on_socket_;
     boost::asio::steady_timer pause_;
+    std::shared_ptr<char> alive_ =
+        std::make_shared<char>();  // callbacks hold it weakly: none acts after destruction
 };
 
 // Connects to an address; a refusal is tried again until `patience` is over (a program may just be starting).
