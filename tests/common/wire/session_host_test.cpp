@@ -112,6 +112,7 @@ TEST_F(SessionHostTest, IntroducesServersToTheSession) {
     const auto one = client();
     const auto peer = come(hello_of(Role::kServer, 42, 5));
     run_until_log("server 5");
+    loop_.run_until([&] { return peer->hello.has_value(); });
     EXPECT_EQ(peer->hello->session, 42u);
     EXPECT_EQ(peer->hello->server, server_id(3));
     peer->send(Connected{});
