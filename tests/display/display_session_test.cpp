@@ -1,0 +1,211 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "display/session/display.h"
+#include "tests/support/wire_peer.h"
+
+namespace swath::test {
+namespace {
+
+using testing::MatchesRegex;
+
+// A display in this process, a client and the servers that it hears from. Pictures are 4 x 2.
+class DisplayTest : public testing::Test {
+  protected:
+    DisplayTest() { display_ = std::move(*make_display(loop_.io, {}, loop_.clock)); }
+
+    std::unique_ptr<Peer> come(const Hello& hello) {
+        return std::make_unique<Peer>(loop_, connect(loop_, display_->address()), hello);
+    }
+    std::unique_ptr<Peer> client() { return come(hello_of(Role::kClient)); }
+    std::unique_ptr<Peer> ready_client(std::uint32_t servers, PictureFormat format = PictureFormat::kNone) {
+        auto made = client();
+        made->send(DisplaySetup{kSession, servers, format, 2});
+        made->expect<Ready>();
+        servers_.clear();
+        for (std::uint32_t i = 0; i < servers; ++i) {
+            servers_.push_back(come(hello_of(Role::kServer, kSession, i)));
+            // The answer to its Ping: the display has taken it in.
+            loop_.run_until([&] { return servers_.back()->connection->has_clock_offset(); });
+        }
+        return made;
+    }
+    static AssembleFrame task(FrameNumber frame, const std::vector<Exchange>& tiles) {
+        return {frame, 4, 2, {9, 9, 9}, tiles};
+    }
+    // Every pixel of the region in one colour.
+    void send_tile(std::size_t server, FrameNumber frame, const Region& region, std::uint32_t colour) {
+        PixelFrame pixels;
+        pixels.reshape({0, 0, 4, 2});
+        pixels.clear(pixels.rect());
+        for (const Rect& r : region)
+            for (int y = r.y0; y < r.y1; ++y)
+                for (int x = r.x0; x < r.x1; ++x) {
+                    *pixels.colour(x, y) = colour;
+                    *pixels.depth(x, y) = 0;
+                }
+        Buffer body;
+        const BodySizes sizes = encode_tile(pixels, region, body);
+        servers_[server]->send(TilePixels{frame, sizes}, std::move(body));
+    }
+
+    static constexpr std::uint64_t kSession = 42;
+    const Exchange left_{server_id(0), {{0, 0, 2, 2}}};
+    const Exchange right_{server_id(1), {{3, 0, 4, 2}}};
+    Loop loop_;
+    std::unique_ptr<SessionHost> display_;
+    std::vector<std::unique_ptr<Peer>> servers_;
+};
+
+TEST_F(DisplayTest, AssemblesAPictureAndSendsItEncoded) {
+    const auto one = ready_client(2, PictureFormat::kPng);
+    EXPECT_EQ(servers_[0]->hello, hello_of(Role::kDisplay, kSession));
+    one->send(task(0, {left_, right_}));
+    send_tile(1, 0, right_.region, 0x030201);
+    send_tile(0, 0, left_.region, 0x060504);
+    const DisplayReport report = one->expect<DisplayReport>();
+    EXPECT_EQ(report.frame, 0u);
+    const auto picture = decode_png(one->body.bytes());
+    ASSERT_TRUE(picture.has_value()) << picture.error().message;
+    EXPECT_EQ(*picture, (Picture{4, 2, {4, 5, 6, 4, 5, 6, 9, 9, 9, 1, 2, 3,  //
+                                        4, 5, 6, 4, 5, 6, 9, 9, 9, 1, 2, 3}}));
+    Nanoseconds end{0};
+    for (const Span& span : report.spans) {
+        EXPECT_GE(span.begin, end);  // one after another
+        end = span.end;
+    }
+    EXPECT_EQ(report.spans.back().phase, Phase::kEncode);
+}
+
+TEST_F(DisplayTest, SendsNoPictureThatNobodyWants) {
+    const auto one = ready_client(1);
+    one->send(task(0, {left_}));
+    send_tile(0, 0, left_.region, 1);
+    EXPECT_EQ(one->expect<DisplayReport>().frame, 0u);
+    EXPECT_EQ(one->body.size(), 0u);
+}
+
+TEST_F(DisplayTest, CompletesAPictureWithoutTilesAtOnce) {
+    const auto one = ready_client(1, PictureFormat::kPng);
+    one->send(task(5, {}));
+    one->expect<DisplayReport>();
+    const auto picture = decode_png(one->body.bytes());
+    ASSERT_TRUE(picture.has_value());
+    EXPECT_EQ(picture->rgb, std::vector<std::uint8_t>(24, 9));
+}
+
+TEST_F(DisplayTest, KeepsTilesThatComeBeforeTheirTask) {
+    const auto one = ready_client(2);
+    send_tile(0, 0, left_.region, 1);
+    send_tile(0, 1, left_.region, 1);
+    loop_.run_until([&] { return servers_[0]->connection->has_clock_offset(); });
+    one->send(task(0, {left_}));
+    EXPECT_EQ(one->expect<DisplayReport>().frame, 0u);
+    one->send(task(1, {left_, right_}));
+    send_tile(1, 1, right_.region, 1);
+    EXPECT_EQ(one->expect<DisplayReport>().frame, 1u);
+}
+
+TEST_F(DisplayTest, ReusesItsPicturesAndForgetsWhatWasInThem) {
+    const auto one = ready_client(1, PictureFormat::kPng);
+    one->send(task(0, {left_}));
+    send_tile(0, 0, left_.region, 0x111111);
+    one->expect<DisplayReport>();
+    AssembleFrame larger = task(1, {});
+    larger.width = 5;
+    one->send(larger);
+    one->expect<DisplayReport>();
+    EXPECT_EQ(decode_png(one->body.bytes())->rgb, std::vector<std::uint8_t>(30, 9));
+}
+
+TEST_F(DisplayTest, RefusesMessagesOutOfTurn) {
+    const auto ending_after = [&](const Message& message) {
+        const auto one = client();
+        one->send(message);
+        return one->ending();
+    };
+    EXPECT_EQ(ending_after(task(0, {})), "AssembleFrame before DisplaySetup");
+    EXPECT_EQ(ending_after(Connect{}), "Connect is not expected from a client");
+    const auto twice = ready_client(1);
+    twice->send(DisplaySetup{});
+    EXPECT_EQ(twice->ending(), "DisplaySetup came twice");
+}
+
+TEST_F(DisplayTest, RefusesImpossibleTasks) {
+    const auto one = ready_client(1);
+    one->send(task(0, {right_}));
+    EXPECT_EQ(one->ending(), "AssembleFrame: server 1 of 1");
+    const auto two = ready_client(1);
+    two->send(task(3, {left_}));
+    two->send(task(3, {left_}));
+    EXPECT_EQ(two->ending(), "frame 3 is announced after frame 3");
+    const auto three = ready_client(1);
+    for (FrameNumber frame = 0; frame < 3; ++frame) three->send(task(frame, {left_}));
+    EXPECT_EQ(three->ending(), "frame 2: more than 2 frames in flight");
+}
+
+TEST_F(DisplayTest, TurnsAwayServersThatItDoesNotExpect) {
+    const auto turned_away = [&](std::uint64_t session, std::size_t server) {
+        return come(hello_of(Role::kServer, session, server))->ending();
+    };
+    EXPECT_EQ(turned_away(kSession, 0), "this display is in no session");
+    const auto early = client();
+    loop_.run_until([&] { return early->connection->has_clock_offset(); });
+    EXPECT_EQ(turned_away(0, 0), "this display is in another session");  // that has no number yet
+    early->connection->finish();
+    loop_.run_until([&] { return early->connection.use_count() == 1; });
+    const auto one = ready_client(2);
+    EXPECT_EQ(turned_away(41, 0), "this display is in another session");
+    EXPECT_EQ(turned_away(kSession, 0), "server 0 is not expected here");  // there is one already
+    EXPECT_EQ(turned_away(kSession, 2), "server 2 is not expected here");
+    EXPECT_EQ(client()->ending(), "this display is busy with another client");
+    EXPECT_FALSE(one->closed.has_value());
+}
+
+TEST_F(DisplayTest, TellsTheClientWhichServerIsLost) {
+    const auto one = ready_client(2);
+    servers_[1]->connection->close();
+    EXPECT_THAT(one->ending(), MatchesRegex("lost server 1 \\(.*\\): (closed the connection|.*reset.*)"));
+    const auto two = ready_client(1);
+    servers_[0]->connection->fail_with({"out of memory"});
+    EXPECT_THAT(two->ending(), MatchesRegex("lost server 0 \\(.*\\): out of memory"));
+}
+
+TEST_F(DisplayTest, NamesTheServerThatSendsWhatNobodyAwaits) {
+    const auto one = ready_client(1);
+    for (FrameNumber frame = 4; frame < 7; ++frame) send_tile(0, frame, left_.region, 1);
+    EXPECT_THAT(one->ending(),
+                MatchesRegex("lost server 0 \\(.*\\): pixels for frame 6, more than 2 frames ahead"));
+    const auto two = ready_client(1);
+    servers_[0]->send(Connect{});
+    EXPECT_THAT(two->ending(), MatchesRegex("lost server 0 \\(.*\\): Connect is not expected from a server"));
+}
+
+TEST_F(DisplayTest, NamesTheServerWhoseTileIsGarbled) {
+    for (const bool early : {false, true}) {
+        const auto one = ready_client(1);
+        if (!early) one->send(task(0, {left_}));
+        loop_.run_until([&] { return servers_[0]->hello.has_value(); });
+        servers_[0]->send(TilePixels{0, {1, 2, 0}}, Buffer(7));
+        if (early) one->send(task(0, {left_}));
+        EXPECT_THAT(one->ending(), testing::HasSubstr("garbled tile from server 0: "
+                                                      "a body of 7 bytes where its head says 5"));
+    }
+}
+
+TEST_F(DisplayTest, ServesTheNextClientAfterOneThatVanished) {
+    {
+        const auto one = ready_client(2);
+        one->send(task(0, {left_, right_}));
+        send_tile(0, 0, left_.region, 1);
+    }
+    EXPECT_EQ(servers_[0]->ending(), "");  // a Bye
+    EXPECT_EQ(servers_[1]->ending(), "");
+    const auto two = ready_client(1);
+    two->send(task(0, {left_}));
+    send_tile(0, 0, left_.region, 1);
+    two->expect<DisplayReport>();
+}
+
+}  // namespace
+}  // namespace swath::test
