@@ -326,6 +326,12 @@ Result<Message> get_render_frame(const pb::RenderFrame& in) {
         for (const Exchange& e : *to)
             if (const auto s = check_inside(e.region, viewport, field); !s) return tl::unexpected(s.error());
     }
+    // What a server keeps of a frame: nothing outside of it may be read or written.
+    Rect kept = m.content;
+    for (const Rect& r : m.final_region) kept = bounding(kept, r);
+    for (const Exchange& e : m.incoming)
+        if (const auto s = check_inside(e.region, kept, "incoming"); !s)
+            return fail("incoming: a rectangle outside the content and the final region");
     for (const Exchange& e : m.outgoing)
         if (const auto s = check_inside(e.region, m.content, "outgoing"); !s)
             return fail("outgoing: a rectangle outside the content");
