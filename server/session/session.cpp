@@ -50,18 +50,18 @@ bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, con
     }
     std::string who;
     if (connection == display_) {
-        who = "the display";
+        who = "the display at " + setup_.display;
         display_.reset();
     }
     for (std::size_t i = 0; i < peers_.size(); ++i)
         if (peers_[i] == connection) {
-            who = fmt::format("server {}", i);
+            who = fmt::format("server {} at {}", i, setup_.servers[i]);
             peers_[i].reset();
         }
     // A Bye comes when the client has ended the run and a peer heard of it before we did.
     if (!who.empty() && !why) {
         const std::string line =
-            fmt::format("lost {} ({}): {}", who, connection->peer(), why.error().message);
+            fmt::format("lost {}: {}", who, why.error().message);
         spdlog::warn("{}; ending the session", line);
         give_up(Error{line});
     }
