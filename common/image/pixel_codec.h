@@ -17,11 +17,10 @@ namespace swath {
 //   swath (server to server): colour, u32 a pixel | depth, f32 a pixel | spans | ids
 //   tile (server to display): R, G, B, a byte each a pixel | spans
 //
-//   spans: for each row of each rectangle of the region, bottom-up: u16 count, then count times (u16 first
-//   pixel,
-//          counted from the rectangle's left edge; u16 length > 0), ascending, with gaps
-//   ids:   runs over the pixels in span order: varint length > 0, varint zigzag(id - previous run's id), from
-//   id 0
+//   spans: for each row of each rectangle of the region, bottom-up: u16 count, then count times
+//          (u16 first pixel, counted from the rectangle's left edge; u16 length > 0), ascending
+//   ids:   runs over the pixels in span order: varint length > 0,
+//          varint zigzag(id - previous run's id), the first against 0
 //
 // The region itself does not travel: both ends know it from the plan.
 struct BodySizes {
@@ -36,9 +35,9 @@ BodySizes encode_swath(const PixelFrame& frame, const Region& region, Buffer& bo
 BodySizes encode_tile(const PixelFrame& frame, const Region& region, Buffer& body);
 
 // Merges a peer's pixels into `frame`: the smaller depth wins, of equal depths the smaller id
-// (docs/design.md, "Exactness"). Nothing in `body` is trusted: sizes, spans, ids below `object_limit` and
-// depths in [0, 1) are checked, and an error says which was wrong; some pixels may have been merged by then.
-// `body` must start at a multiple of 4.
+// (docs/design.md, "Exactness"). `region` must lie in frame.rect(). Nothing in `body` is trusted: sizes,
+// spans, ids below `object_limit` and depths in [0, 1) are checked, and an error says which was wrong; some
+// pixels may have been merged by then. `body` must start at a multiple of 4.
 Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
                        ObjectId object_limit, PixelFrame& frame);
 
