@@ -15,15 +15,19 @@ namespace asio = boost::asio;
 
 void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& timing) {
     app.add_flag("--quiet", options.quiet, "log errors only, and show no progress");
-    app.add_flag("--lifeline", options.lifeline, "end when stdin closes (for programs that start this one)");
+
     app.add_option_function<int>(
            "--silence-ms",
            [&timing](int ms) {
                timing.silence_limit = std::chrono::milliseconds(ms);
                timing.heartbeat = timing.silence_limit / 6;
            },
-           "a peer that is silent this long is taken for dead [1800]")
+           "a peer that is silent this long is taken for dead [1600]")
         ->check(CLI::Range(100, 600'000));
+}
+
+void add_lifeline_option(CLI::App& app, ProgramOptions& options) {
+    app.add_flag("--lifeline", options.lifeline, "end when stdin closes (for programs that start this one)");
 }
 
 std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {

@@ -141,15 +141,14 @@ void Connection::read_rest(const Prefix& prefix) {
 }
 
 void Connection::on_received() {
-    auto message = decode_head(head_);
-    if (!message) return fail_with(message.error());
     // What a peer asks for may be within the limits and still too much for this machine: that ends the peer,
     // not us.
     Status status;
     try {
-        status = dispatch(std::move(*message));
+        auto message = decode_head(head_);
+        status = message ? dispatch(std::move(*message)) : tl::unexpected(message.error());
     } catch (const std::bad_alloc&) {
-        status = fail("not enough memory for it");
+        status = fail("not enough memory for what it asks");
     }
     if (!status) return fail_with(status.error());
     if (open_ && !closing_) read_prefix();
