@@ -17,10 +17,12 @@ Status parse_size(const std::string& text, int& width, int& height) {
     if (first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x') {
         const auto second = std::from_chars(first.ptr + 1, end, height);
         if (second.ec == std::errc{} && second.ptr == end && width >= 1 && height >= 1 &&
-            width <= kMaxPictureSide && height <= kMaxPictureSide)
+            width <= kMaxPictureSide && height <= kMaxPictureSide &&
+            std::int64_t{width} * height <= kMaxPicturePixels)
             return {};
     }
-    return fail("--size: '{}': expected WxH, each from 1 to {}", text, kMaxPictureSide);
+    return fail("--size: '{}': expected WxH, each from 1 to {}, at most {} pixels", text, kMaxPictureSide,
+                kMaxPicturePixels);
 }
 
 // "ff8000"
@@ -80,7 +82,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->check(CLI::IsMember({"osmesa", "egl"}));
     auto* objects = app.add_option("--objects", options.granularity.objects,
                                    "cut the model into about this many objects [1500]")
-                        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
+                        ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
     auto* octree = app.add_option("--octree-depth", depth, "... or by an octree of this depth")
                        ->check(CLI::Range(0, kMaxOctreeDepth));
     octree->excludes(objects);

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
                    "beyond loopback only in a network you trust")
         ->capture_default_str();
     add_program_options(app, program, options.timing);
+    add_lifeline_option(app, program);
     if (const auto code = parse_options(app, argc, argv)) return *code;
     start_log("swath-display", program);
 

@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
                    "else one per core]")
         ->check(CLI::Range(0, 256));
     add_program_options(app, program, options.timing);
+    add_lifeline_option(app, program);
     if (const auto code = parse_options(app, argc, argv)) return *code;
     start_log("swath-server", program);
 

@@ -16,6 +16,7 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
       handlers_(std::move(handlers)),
       partitioner_(make_partitioner(job_.algorithm, job_.scene->objects)),
       model_triangles_(job_.scene->mesh.triangle_count()),
+      digest_(digest(job_.blob.bytes())),
       director_(job_.cameras.size(), job_.frames_in_flight) {
     for (std::size_t i = 0; i < job_.servers.size(); ++i)
         peers_.push_back({fmt::format("server {} at {}", i, to_string(job_.servers[i])),
@@ -43,8 +44,13 @@ void ClusterRun::stop() {
 void ClusterRun::finish(Result<std::vector<FrameTimeline>> result) {
     if (over_) return;
     over_ = true;
-    for (Peer& peer : peers_)
-        if (peer.connection) peer.connection->finish();
+    for (Peer& peer : peers_) {
+        if (!peer.connection) continue;
+        if (result)
+            peer.connection->finish();
+        else
+            peer.connection->fail_with({"the run ended: " + result.error().message});
+    }
     boost::asio::post(io_, [self = shared_from_this(), result = std::move(result)]() mutable {
         if (self->handlers_.on_done) self->handlers_.on_done(std::move(result));
         self->handlers_ = {};
@@ -88,7 +94,7 @@ void ClusterRun::set_up() {
     ServerSetup setup;
     setup.session = job_.session;
     setup.model = job_.model;
-    setup.digest = digest(job_.blob.bytes());
+    setup.digest = digest_;
     setup.blob_bytes = job_.blob.size();
     setup.octree_depth = job_.scene->depth;
     setup.renderer = job_.renderer;
@@ -147,6 +153,7 @@ Status ClusterRun::on_ready(Peer& peer, const Ready& ready) {
     if (peer.role == Role::kServer && ready.objects != job_.scene->objects.size())
         return fail("cut the model into {} objects, this client into {}", ready.objects,
                     job_.scene->objects.size());
+    if (peer.ready) return fail("Ready came twice");
     peer.ready = true;
     if (!std::all_of(peers_.begin(), peers_.end(), [](const Peer& p) { return p.ready; })) return {};
     for (const Peer& p : peers_)
@@ -240,6 +247,8 @@ Status ClusterRun::on_report(std::size_t i, const Report& report, const Buffer& 
     OpenFrame& frame = found->second;
     const Peer& peer = peers_[i];
     MachineTimeline& machine = frame.timeline.machines[1 + i];
+    if (report.spans.empty() || !machine.spans.empty())
+        return fail("a report for frame {} that is empty or came twice", report.frame);
     const Nanoseconds offset = peer.connection->clock_offset();
     machine.spans = report.spans;
     for (Span& span : machine.spans) {

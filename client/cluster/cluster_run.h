@@ -12,6 +12,7 @@
 #include "common/base/buffer.h"
 #include "common/base/clock.h"
 #include "common/base/result.h"
+#include "common/scene/model_blob.h"
 #include "common/scene/objects.h"
 #include "common/timeline/timeline.h"
 #include "common/wire/address.h"
@@ -87,6 +88,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     std::vector<Peer> peers_;  // the servers, then the display
     std::unique_ptr<Partitioner> partitioner_;
     std::size_t model_triangles_ = 0;
+    Digest digest_;  // made before the network runs: a large model takes a while
     Director director_;
     std::map<FrameNumber, OpenFrame> frames_;
     std::vector<FrameTimeline> timelines_;

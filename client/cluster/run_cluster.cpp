@@ -10,22 +10,27 @@ Result<std::vector<FrameTimeline>> run_cluster(ClusterJob job, const Clock& cloc
                                                std::function<Status(FrameNumber, const Buffer&)> on_picture) {
     boost::asio::io_context io(1);
     Result<std::vector<FrameTimeline>> result = fail("the run did not end");
+    bool over = false;
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
     const auto run =
         std::make_shared<ClusterRun>(io, std::move(job), clock,
                                      ClusterRun::Handlers{std::move(on_ready), std::move(on_picture),
                                                           [&](Result<std::vector<FrameTimeline>> done) {
                                                               result = std::move(done);
+                                                              over = true;
                                                               signals.cancel();
                                                           }});
     signals.async_wait([&](const boost::system::error_code& error, int) {
         if (error) return;
         run->stop();
         result = fail("interrupted");
-        io.stop();
+        over = true;
     });
     run->start();
-    io.run();
+    while (!over && io.run_one() > 0) {
+    }
+    // What is left: the last words to peers, and perhaps attempts to connect that no longer matter.
+    io.run_for(std::chrono::milliseconds(200));
     return result;
 }
 

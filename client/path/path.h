@@ -24,9 +24,9 @@ inline constexpr std::size_t kMaxPathFrames = 1'000'000;
 // The cameras of a run, by what `spec` names:
 //   orbit    once around the model at equal steps of azimuth, a little above it, as near as the whole box
 //            fits in the picture (at zoom 1)
-//   random   the path of Samanta 2000's simulations (notes/partitioning-and-simulation.md, section 2): once
-//            around, each frame at a random elevation within 0.65 rad, 0.3 rad of view, the box's longest
-//            side times `zoom` as high as the screen. The same seed gives the same bits everywhere.
+//   random   the path of Samanta 2000's simulations, as far as its Table 1 pins it down: once around, each
+//            frame at a random elevation within 0.65 rad, 0.3 rad of view, the box's longest side times
+//            `zoom` as high as the screen. The same seed gives the same bits everywhere.
 //   else     a file of cameras, see read_cameras; repeated from its start if it has fewer than `frames`
 // All have the depth range of with_depth_range(). `bounds` is the model's, not empty. Errors name the option,
 // or the file and line.

@@ -12,7 +12,7 @@ inline constexpr std::size_t kMaxServers = 1024;
 
 // An object's place in its ObjectSet. Ascending ids are the drawing order and break depth ties.
 using ObjectId = std::uint32_t;
-inline constexpr ObjectId kNoObject = 0x7fffffff;  // larger than every real id, also as a signed number
+
 inline constexpr ObjectId kMaxObjects = 0x7fffffff;
 
 using FrameNumber = std::uint64_t;

@@ -20,7 +20,10 @@ struct Picture {
     bool operator==(const Picture&) const = default;
 };
 
-inline constexpr int kMaxPictureSide = 16384;  // pixels, of what encode and decode_png take
+inline constexpr int kMaxPictureSide = 16384;
+// ... and pixels: a message of all of them, with depth, stays below half a gibibyte.
+inline constexpr std::int64_t kMaxPicturePixels = std::int64_t{1}
+                                                  << 26;  // pixels, of what encode and decode_png take
 
 enum class PictureFormat { kNone, kPng, kJpeg };
 

@@ -12,7 +12,9 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "bodies are little-endian and copied as they are");
 
 constexpr std::uint32_t kFarBits = std::bit_cast<std::uint32_t>(kFarDepth);
-constexpr int kChunk = 16;  // pixels that the span search looks at together
+constexpr std::size_t kSwathPixelBytes = 7;  // depth and colour
+constexpr std::size_t kTilePixelBytes = 3;   // colour
+constexpr int kChunk = 16;                   // pixels that the span search looks at together
 
 bool active(float depth) { return depth < kFarDepth; }
 
@@ -29,13 +31,6 @@ int find(const float* row, int x, int end) {
     while (x < end && active(row[x]) != kWanted) ++x;
     return x;
 }
-
-void put_u16(std::vector<std::uint8_t>& out, int value) {
-    out.push_back(static_cast<std::uint8_t>(value & 0xff));
-    out.push_back(static_cast<std::uint8_t>(value >> 8));
-}
-
-int get_u16(const std::uint8_t* from) { return from[0] | from[1] << 8; }
 
 void put_varint(std::vector<std::uint8_t>& out, std::uint32_t value) {
     while (value >= 0x80) {
@@ -62,25 +57,26 @@ template <class OnSpan>
 std::uint32_t scan_spans(const PixelFrame& frame, const Region& region, std::vector<std::uint8_t>& table,
                          const OnSpan& on_span) {
     std::uint32_t pixels = 0;
+    std::vector<std::uint8_t> row_spans;
     for (const Rect& rect : region) {
         CHECK(frame.rect().contains(rect) == true);
-        CHECK(rect.width() <= 0xffff);
         for (int y = rect.y0; y < rect.y1; ++y) {
             const float* row = frame.depth(rect.x0, y);
-            const std::size_t count_at = table.size();
-            put_u16(table, 0);
-            int count = 0;
+            row_spans.clear();
+            std::uint32_t count = 0;
+            int done = 0;
             for (int x = find<true>(row, 0, rect.width()); x < rect.width();) {
                 const int end = find<false>(row, x, rect.width());
-                put_u16(table, x);
-                put_u16(table, end - x);
+                put_varint(row_spans, static_cast<std::uint32_t>(x - done));
+                put_varint(row_spans, static_cast<std::uint32_t>(end - x));
                 on_span(rect.x0 + x, y, end - x);
                 pixels += static_cast<std::uint32_t>(end - x);
                 ++count;
+                done = end;
                 x = find<true>(row, end, rect.width());
             }
-            table[count_at] = static_cast<std::uint8_t>(count & 0xff);
-            table[count_at + 1] = static_cast<std::uint8_t>(count >> 8);
+            put_varint(table, count);
+            table.insert(table.end(), row_spans.begin(), row_spans.end());
         }
     }
     return pixels;
@@ -91,32 +87,39 @@ template <class OnSpan>
 Status walk_spans(std::span<const std::uint8_t> table, const Region& region, std::uint32_t pixels,
                   const OnSpan& on_span) {
     const std::uint8_t* at = table.data();
-    std::size_t left = table.size();
+    const std::uint8_t* const end = at + table.size();
     std::uint32_t done = 0;
     for (const Rect& rect : region) {
+        const auto width = static_cast<std::uint32_t>(rect.width());
         for (int y = rect.y0; y < rect.y1; ++y) {
-            if (left < 2) return fail("spans: the table ends in row {}", y);
-            const int count = get_u16(at);
-            at += 2;
-            left -= 2;
-            if (left < 4 * static_cast<std::size_t>(count)) return fail("spans: the table ends in row {}", y);
-            int previous_end = 0;
-            for (int i = 0; i < count; ++i, at += 4, left -= 4) {
-                const int x = get_u16(at);
-                const int length = get_u16(at + 2);
-                if (length == 0 || x < previous_end || x + length > rect.width())
-                    return fail("spans: {} pixels from {} in a row of {}", length, x, rect.width());
-                if (static_cast<std::uint32_t>(length) > pixels - done)
-                    return fail("spans: more pixels than the {} announced", pixels);
-                on_span(rect.x0 + x, y, length, done);
-                done += static_cast<std::uint32_t>(length);
-                previous_end = x + length;
+            std::uint32_t count = 0;
+            if (!get_varint(at, end, count)) return fail("spans: the table ends in row {}", y);
+            std::uint32_t x = 0;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                std::uint32_t skip = 0;
+                std::uint32_t length = 0;
+                if (!get_varint(at, end, skip) || !get_varint(at, end, length))
+                    return fail("spans: the table ends in row {}", y);
+                if (length == 0 || skip > width - x || length > width - x - skip)
+                    return fail("spans: {} pixels after {} and {} skipped in a row of {}", length, x, skip,
+                                width);
+                if (length > pixels - done) return fail("spans: more pixels than the {} announced", pixels);
+                x += skip;
+                on_span(rect.x0 + static_cast<int>(x), y, static_cast<int>(length), done);
+                x += length;
+                done += length;
             }
         }
     }
-    if (left != 0) return fail("spans: {} bytes too many", left);
+    if (at != end) return fail("spans: {} bytes too many", end - at);
     if (done != pixels) return fail("spans: {} pixels where {} were announced", done, pixels);
     return {};
+}
+
+// Three bytes a pixel, each by a four-byte store: there must be one byte of room behind the last.
+std::uint8_t* pack_rgb(const std::uint32_t* colour, int length, std::uint8_t* out) {
+    for (int i = 0; i < length; ++i, out += 3) std::memcpy(out, colour + i, 4);
+    return out;
 }
 
 Status check_sizes(std::span<const std::uint8_t> body, const BodySizes& sizes, std::uint64_t bytes_a_pixel,
@@ -164,9 +167,9 @@ BodySizes encode_swath(const PixelFrame& frame, const Region& region, Buffer& bo
         places.push_back({x, y, length});
     });
 
-    body.resize(std::size_t{8} * sizes.pixels);
-    std::uint8_t* colour = body.data();
-    std::uint8_t* depth = body.data() + std::size_t{4} * sizes.pixels;
+    body.resize(kSwathPixelBytes * sizes.pixels + 1);
+    std::uint8_t* depth = body.data();
+    std::uint8_t* rgb = body.data() + sizeof(float) * sizes.pixels;
     std::vector<std::uint8_t> ids;
     std::uint32_t run = 0;
     ObjectId current = 0;
@@ -180,11 +183,10 @@ BodySizes encode_swath(const PixelFrame& frame, const Region& region, Buffer& bo
         run = 0;
     };
     for (const Place& place : places) {
-        const std::size_t bytes = std::size_t{4} * static_cast<std::size_t>(place.length);
-        std::memcpy(colour, frame.colour(place.x, place.y), bytes);
+        const std::size_t bytes = sizeof(float) * static_cast<std::size_t>(place.length);
         std::memcpy(depth, frame.depth(place.x, place.y), bytes);
-        colour += bytes;
         depth += bytes;
+        rgb = pack_rgb(frame.colour(place.x, place.y), place.length, rgb);
         const ObjectId* id = frame.id(place.x, place.y);
         for (int i = 0; i < place.length; ++i) {
             if (id[i] != current || run == 0) {
@@ -197,6 +199,7 @@ BodySizes encode_swath(const PixelFrame& frame, const Region& region, Buffer& bo
     end_run();
     sizes.span_bytes = static_cast<std::uint32_t>(spans.size());
     sizes.id_bytes = static_cast<std::uint32_t>(ids.size());
+    body.resize(kSwathPixelBytes * sizes.pixels);
     body.append(spans.data(), spans.size());
     body.append(ids.data(), ids.size());
     return sizes;
@@ -204,16 +207,14 @@ BodySizes encode_swath(const PixelFrame& frame, const Region& region, Buffer& bo
 
 BodySizes encode_tile(const PixelFrame& frame, const Region& region, Buffer& body) {
     std::vector<std::uint8_t> spans;
-    // Room for every pixel plus the one byte that the last four-byte store writes beyond its three.
-    body.resize(3 * static_cast<std::size_t>(area(region)) + 1);
+    body.resize(kTilePixelBytes * static_cast<std::size_t>(area(region)) + 1);
     std::uint8_t* out = body.data();
     BodySizes sizes;
     sizes.pixels = scan_spans(frame, region, spans, [&](int x, int y, int length) {
-        const std::uint32_t* colour = frame.colour(x, y);
-        for (int i = 0; i < length; ++i, out += 3) std::memcpy(out, colour + i, 4);
+        out = pack_rgb(frame.colour(x, y), length, out);
     });
     sizes.span_bytes = static_cast<std::uint32_t>(spans.size());
-    body.resize(std::size_t{3} * sizes.pixels);
+    body.resize(kTilePixelBytes * sizes.pixels);
     body.append(spans.data(), spans.size());
     return sizes;
 }
@@ -239,34 +240,42 @@ Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& size
                        ObjectId object_limit, PixelFrame& frame) {
     // The caller's plan, not the peer's word.
     for (const Rect& rect : region) CHECK(frame.rect().contains(rect) == true);
-    if (const auto status = check_sizes(body, sizes, 8, region); !status) return status;
-    const std::size_t plane = std::size_t{4} * sizes.pixels;
-    // The planes are used where they lie: a Buffer starts aligned for them.
+    if (const auto status = check_sizes(body, sizes, kSwathPixelBytes, region); !status) return status;
+    // The depths are used where they lie: a Buffer starts aligned for them.
     CHECK(reinterpret_cast<std::uintptr_t>(body.data()) % alignof(float) == 0u);
-    const auto* const colour = reinterpret_cast<const std::uint32_t*>(body.data());
-    const auto* const depth = reinterpret_cast<const float*>(body.data() + plane);
+    const auto* const depth = reinterpret_cast<const float*>(body.data());
     std::uint32_t highest = 0;
     for (std::size_t i = 0; i < sizes.pixels; ++i)
         highest = std::max(highest, std::bit_cast<std::uint32_t>(depth[i]));
     if (highest >= kFarBits) return fail("depths: a value outside [0, 1)");
+    const std::uint8_t* const rgb = body.data() + sizeof(float) * sizes.pixels;
+    const std::size_t pixel_bytes = kSwathPixelBytes * sizes.pixels;
     std::vector<ObjectId> ids;
     if (const auto status =
-            decode_ids(body.subspan(2 * plane + sizes.span_bytes), sizes.pixels, object_limit, ids);
+            decode_ids(body.subspan(pixel_bytes + sizes.span_bytes), sizes.pixels, object_limit, ids);
         !status)
         return status;
-    return walk_spans(body.subspan(2 * plane, sizes.span_bytes), region, sizes.pixels,
+    std::vector<std::uint32_t> colour;  // of one span
+    return walk_spans(body.subspan(pixel_bytes, sizes.span_bytes), region, sizes.pixels,
                       [&](int x, int y, int length, std::uint32_t at) {
-                          composite_pixels(static_cast<std::size_t>(length), colour + at, depth + at,
-                                           &ids[at], frame.colour(x, y), frame.depth(x, y), frame.id(x, y));
+                          const auto n = static_cast<std::size_t>(length);
+                          colour.resize(n);
+                          const std::uint8_t* from = rgb + kTilePixelBytes * at;
+                          for (std::size_t i = 0; i < n; ++i, from += 3)
+                              colour[i] = 0xff000000u | std::uint32_t{from[2]} << 16 |
+                                          std::uint32_t{from[1]} << 8 | from[0];
+                          composite_pixels(n, colour.data(), depth + at, &ids[at], frame.colour(x, y),
+                                           frame.depth(x, y), frame.id(x, y));
                       });
 }
 
 Status assemble_tile(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
                      Picture& picture) {
-    for (const Rect& rect : region) CHECK((Rect{0, 0, picture.width, picture.height}.contains(rect)) == true);
+    const Rect all{0, 0, picture.width, picture.height};
+    for (const Rect& rect : region) CHECK(all.contains(rect) == true);
     if (sizes.id_bytes != 0) return fail("a tile with object ids");
-    if (const auto status = check_sizes(body, sizes, 3, region); !status) return status;
-    return walk_spans(body.subspan(std::size_t{3} * sizes.pixels), region, sizes.pixels,
+    if (const auto status = check_sizes(body, sizes, kTilePixelBytes, region); !status) return status;
+    return walk_spans(body.subspan(kTilePixelBytes * sizes.pixels), region, sizes.pixels,
                       [&](int x, int y, int length, std::uint32_t at) {
                           const std::size_t to =
                               3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +

@@ -11,15 +11,16 @@
 
 namespace swath {
 
-// How pixels travel: only active ones (depth below 1), as spans. Both bodies are little-endian; docs/wire.md
-// has a worked example.
+// How pixels travel: only active ones (depth below 1), as spans; without alpha, which is always opaque.
+// Numbers are little-endian, varints have seven bits a byte, the low ones first. docs/wire.md has a worked
+// example.
 //
-//   swath (server to server): colour, u32 a pixel | depth, f32 a pixel | spans | ids
+//   swath (server to server): depth, f32 a pixel | R, G, B, a byte each a pixel | spans | ids
 //   tile (server to display): R, G, B, a byte each a pixel | spans
 //
-//   spans: for each row of each rectangle of the region, bottom-up: u16 count, then count times (u16 first
-//   pixel,
-//          counted from the rectangle's left edge; u16 length > 0), ascending, with gaps
+//   spans: for each row of each rectangle of the region, bottom-up: varint count, then count times (varint
+//   pixels skipped
+//          since the rectangle's left edge or the span before; varint length > 0)
 //   ids:   runs over the pixels in span order: varint length > 0, varint zigzag(id - previous run's id), from
 //   id 0
 //

@@ -14,16 +14,20 @@ namespace swath {
 namespace asio = boost::asio;
 
 void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& timing) {
-    app.add_flag("--quiet", options.quiet, "log warnings and errors only");
-    app.add_flag("--lifeline", options.lifeline, "end when stdin closes (for programs that start this one)");
+    app.add_flag("--quiet", options.quiet, "log errors only, and show no progress");
+
     app.add_option_function<int>(
            "--silence-ms",
            [&timing](int ms) {
                timing.silence_limit = std::chrono::milliseconds(ms);
                timing.heartbeat = timing.silence_limit / 6;
            },
-           "a peer that is silent this long is taken for dead [1800]")
+           "a peer that is silent this long is taken for dead [1600]")
         ->check(CLI::Range(100, 600'000));
+}
+
+void add_lifeline_option(CLI::App& app, ProgramOptions& options) {
+    app.add_flag("--lifeline", options.lifeline, "end when stdin closes (for programs that start this one)");
 }
 
 std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
@@ -52,7 +56,7 @@ void start_log(const std::string& program, const ProgramOptions& options) {
     auto logger =
         std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>());
     logger->set_pattern("%H:%M:%S.%e %n %l: %v");
-    logger->set_level(options.quiet ? spdlog::level::warn : spdlog::level::info);
+    logger->set_level(options.quiet ? spdlog::level::err : spdlog::level::info);
     spdlog::set_default_logger(std::move(logger));
 }
 

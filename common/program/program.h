@@ -19,6 +19,7 @@ struct ProgramOptions {
     bool lifeline = false;
 };
 void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& timing);
+void add_lifeline_option(CLI::App& app, ProgramOptions& options);  // for programs that wait for others
 
 // Parses; the exit code if the program is to end now (help, or a wrong flag: one line on stderr and
 // kExitUsage).

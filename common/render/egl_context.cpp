@@ -41,7 +41,9 @@ Result<std::unique_ptr<GlContext>> make_egl_context() {
     if (eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
         return fail("EGL: cannot initialise the display (error {:#x})", eglGetError());
     if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return fail("EGL: this driver has no desktop OpenGL");
-    const std::array<EGLint, 3> wanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    // The default asks for configurations that can draw to a window, which this platform has none of.
+    const std::array<EGLint, 5> wanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+                                       EGL_NONE};
     EGLConfig config{};
     EGLint count = 0;
     if (eglChooseConfig(display, wanted.data(), &config, 1, &count) != EGL_TRUE || count == 0)

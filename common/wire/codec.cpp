@@ -199,9 +199,12 @@ Status check_time(std::int64_t ns, const char* field) {
     return {};
 }
 
-Status check_side(std::uint32_t side, const char* field) {
-    if (side < 1 || side > static_cast<std::uint32_t>(kMaxPictureSide))
-        return fail("{}: {}, the limits are 1 and {}", field, side, kMaxPictureSide);
+Status check_size(std::uint32_t width, std::uint32_t height) {
+    const auto limit = static_cast<std::uint32_t>(kMaxPictureSide);
+    if (width < 1 || width > limit || height < 1 || height > limit ||
+        std::int64_t{width} * height > kMaxPicturePixels)
+        return fail("size: {}x{}, the limits are {} a side and {} pixels", width, height, limit,
+                    kMaxPicturePixels);
     return {};
 }
 
@@ -302,8 +305,7 @@ Result<View> get_view(const pb::RenderFrame& in) {
         if (!std::isfinite(in.to_light(i))) return fail("to_light: not a finite number");
         view.to_light[i] = in.to_light(i);
     }
-    if (const auto s = check_side(in.width(), "width"); !s) return tl::unexpected(s.error());
-    if (const auto s = check_side(in.height(), "height"); !s) return tl::unexpected(s.error());
+    if (const auto s = check_size(in.width(), in.height()); !s) return tl::unexpected(s.error());
     view.width = static_cast<int>(in.width());
     view.height = static_cast<int>(in.height());
     return view;
@@ -352,8 +354,7 @@ Result<Message> get_render_frame(const pb::RenderFrame& in) {
 Result<Message> get_assemble_frame(const pb::AssembleFrame& in) {
     AssembleFrame m;
     m.frame = in.frame();
-    if (const auto s = check_side(in.width(), "width"); !s) return tl::unexpected(s.error());
-    if (const auto s = check_side(in.height(), "height"); !s) return tl::unexpected(s.error());
+    if (const auto s = check_size(in.width(), in.height()); !s) return tl::unexpected(s.error());
     m.width = static_cast<int>(in.width());
     m.height = static_cast<int>(in.height());
     if (in.background() > 0xffffff) return fail("background: {:#x}, the limit is 0xffffff", in.background());

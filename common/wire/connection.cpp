@@ -158,7 +158,7 @@ void Connection::on_received() {
         auto message = decode_head(head_);
         status = message ? dispatch(std::move(*message)) : tl::unexpected(message.error());
     } catch (const std::bad_alloc&) {
-        status = fail("not enough memory for it");
+        status = fail("not enough memory for what it asks");
     }
     if (!status) fail_with(status.error());
     if (!open_) return;

@@ -17,9 +17,9 @@ namespace swath {
 
 // How patient the programs are with each other.
 struct WireTiming {
-    Nanoseconds heartbeat = std::chrono::milliseconds(300);  // silence after which a Ping is sent
+    Nanoseconds heartbeat = std::chrono::milliseconds(250);  // silence after which a Ping is sent
     Nanoseconds silence_limit =
-        std::chrono::milliseconds(1800);  // without a byte from the peer it is taken for dead
+        std::chrono::milliseconds(1600);  // without a byte from the peer it is taken for dead
 };
 
 // One TCP connection that exchanges messages. Both ends start with a Hello; then each side sends what it

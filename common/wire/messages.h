@@ -18,7 +18,9 @@
 namespace swath {
 
 // What the programs say to each other; the bytes are in docs/wire.md. All are values, checked when they are
-// decoded: a decoded message has no rectangle outside kMaxPictureSide, ids ascend, sizes match their region.
+// decoded: a decoded message has no rectangle outside kMaxPictureSide, ids ascend, numbers keep their limits.
+// What needs more than the message (is this object in the model, do sizes match their region) is checked by
+// whoever uses it.
 
 inline constexpr std::uint32_t kMaxFramesInFlight = 8;
 
@@ -35,8 +37,8 @@ struct Hello {
     bool operator==(const Hello&) const = default;
 };
 
-// Sent by either end when it has been silent for a while; answered at once. The answers estimate the offset
-// of clocks.
+// Sent by either end after its Hello and when it has been silent for a while; answered at once. The answers
+// estimate the offset of clocks.
 struct Ping {
     Nanoseconds sent{0};
     bool operator==(const Ping&) const = default;

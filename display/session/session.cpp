@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <boost/asio/post.hpp>
+#include <new>
 #include <utility>
 
 #include "common/base/check.h"
@@ -167,12 +168,17 @@ void DisplaySession::complete(FrameNumber number) {
     encoder_->post([self = shared_from_this(), frame] {
         const Nanoseconds begin = self->clock_.now();
         const Nanoseconds cpu_begin = self->clock_.thread_cpu();
-        auto encoded = std::make_shared<Buffer>(encode(frame->picture, self->setup_.format));
+        auto encoded = std::make_shared<Result<Buffer>>(fail("not enough memory to encode a picture"));
+        try {
+            *encoded = encode(frame->picture, self->setup_.format);
+        } catch (const std::bad_alloc&) {  // the error stays
+        }
         self->add_span(*frame, Phase::kEncode, begin, cpu_begin);
         asio::post(self->io_, [self, frame, encoded] {
             if (self->stopped_) return;
+            if (!*encoded) return self->give_up(encoded->error());
             self->pool_.push_back(std::move(frame->picture));
-            self->report(std::move(frame->report), std::move(*encoded));
+            self->report(std::move(frame->report), std::move(**encoded));
         });
     });
 }

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <new>
+
 #include "common/base/file.h"
 #include "common/scene/model.h"
 
@@ -10,7 +12,7 @@ namespace {
 constexpr std::uint64_t kMaxBlobBytes = std::uint64_t{64} << 30;
 }
 
-std::optional<Mesh> ModelStore::find(const std::string& name, const Digest& wanted) const {
+std::optional<Mesh> ModelStore::find(const std::string& name, const Digest& wanted) const try {
     if (auto mesh = load_model(name)) {
         if (digest(write_blob(*mesh).bytes()) == wanted) return std::move(*mesh);
         spdlog::info("{}: this machine's file is not the client's model", name);
@@ -31,15 +33,20 @@ std::optional<Mesh> ModelStore::find(const std::string& name, const Digest& want
     auto mesh = read_blob(blob->bytes());
     if (!mesh) return std::nullopt;
     return std::move(*mesh);
+} catch (const std::bad_alloc&) {
+    spdlog::warn("{}: not enough memory to read it", name);
+    return std::nullopt;
 }
 
-Result<Mesh> ModelStore::accept(std::span<const std::uint8_t> blob, const Digest& wanted) const {
+Result<Mesh> ModelStore::accept(std::span<const std::uint8_t> blob, const Digest& wanted) const try {
     if (digest(blob) != wanted) return fail("the model that arrived does not have the announced SHA-256");
     auto mesh = read_blob(blob);
     if (!mesh) return mesh;
     if (const auto status = write_file(file(wanted), blob); !status)
         spdlog::warn("model cache: {}", status.error().message);
     return mesh;
+} catch (const std::bad_alloc&) {
+    return fail("not enough memory for a model of {} bytes", blob.size());
 }
 
 }  // namespace swath

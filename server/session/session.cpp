@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <boost/asio/post.hpp>
+#include <new>
 #include <utility>
 
 #include "common/base/check.h"
@@ -30,6 +31,17 @@ void ServerSession::stop() {
     draw_thread_.reset();
 }
 
+void ServerSession::resume(const std::function<Status()>& rest) {
+    if (!draw_thread_) return;
+    Status status;
+    try {
+        status = rest();
+    } catch (const std::bad_alloc&) {
+        status = fail("not enough memory");
+    }
+    if (!status) give_up(status.error());
+}
+
 // The session cannot go on: the client is told why, and its connection's end ends the session.
 void ServerSession::give_up(const Error& error) {
     if (draw_thread_) client_->fail_with(error);
@@ -50,18 +62,17 @@ bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, con
     }
     std::string who;
     if (connection == display_) {
-        who = "the display";
+        who = "the display at " + setup_.display;
         display_.reset();
     }
     for (std::size_t i = 0; i < peers_.size(); ++i)
         if (peers_[i] == connection) {
-            who = fmt::format("server {}", i);
+            who = fmt::format("server {} at {}", i, setup_.servers[i]);
             peers_[i].reset();
         }
     // A Bye comes when the client has ended the run and a peer heard of it before we did.
     if (!who.empty() && !why) {
-        const std::string line =
-            fmt::format("lost {} ({}): {}", who, connection->peer(), why.error().message);
+        const std::string line = fmt::format("lost {}: {}", who, why.error().message);
         spdlog::warn("{}; ending the session", line);
         give_up(Error{line});
     }
@@ -99,10 +110,15 @@ Status ServerSession::on_setup(const ServerSetup& setup) {
         auto mesh =
             std::make_shared<std::optional<Mesh>>(self->store_.find(self->setup_.model, self->setup_.digest));
         asio::post(self->io_, [self, mesh] {
-            if (!self->draw_thread_) return;
-            if (*mesh) return self->load(std::move(**mesh));
-            spdlog::info("model {}: asking the client for it", self->setup_.model);
-            self->need_model_part();
+            self->resume([&]() -> Status {
+                if (*mesh) {
+                    self->load(std::move(**mesh));
+                } else {
+                    spdlog::info("model {}: asking the client for it", self->setup_.model);
+                    self->need_model_part();
+                }
+                return {};
+            });
         });
     });
     return {};
@@ -130,28 +146,33 @@ Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
         auto mesh =
             std::make_shared<Result<Mesh>>(self->store_.accept(self->blob_.bytes(), self->setup_.digest));
         asio::post(self->io_, [self, mesh] {
-            if (!self->draw_thread_) return;
-            self->blob_ = Buffer();
-            if (!*mesh) return self->give_up(mesh->error());
-            self->load(std::move(**mesh));
+            self->resume([&]() -> Status {
+                self->blob_ = Buffer();
+                if (!*mesh) return tl::unexpected(mesh->error());
+                self->load(std::move(**mesh));
+                return {};
+            });
         });
     });
     return {};
 }
 
 void ServerSession::load(Mesh mesh) {
-    draw_thread_->load(std::move(mesh), setup_.octree_depth, setup_.renderer,
-                       [self = shared_from_this()](Result<Loaded> loaded) {
-                           asio::post(self->io_, [self, loaded = std::move(loaded)] {
-                               if (!self->draw_thread_) return;
-                               if (!loaded) return self->give_up(loaded.error());
-                               self->objects_ = loaded->objects;
-                               self->ready_ = true;
-                               spdlog::info("model {}: {} triangles in {} objects; {}", self->setup_.model,
-                                            loaded->triangles, loaded->objects, loaded->renderer);
-                               self->tell_client(Ready{loaded->objects, loaded->triangles, loaded->renderer});
-                           });
-                       });
+    draw_thread_->load(
+        std::move(mesh), setup_.octree_depth, setup_.renderer,
+        [self = shared_from_this()](const Result<Loaded>& result) {
+            asio::post(self->io_, [self, result] { self->resume([&] { return self->on_loaded(result); }); });
+        });
+}
+
+Status ServerSession::on_loaded(const Result<Loaded>& loaded) {
+    if (!loaded) return tl::unexpected(loaded.error());
+    objects_ = loaded->objects;
+    ready_ = true;
+    spdlog::info("model {}: {} triangles in {} objects; {}", setup_.model, loaded->triangles, loaded->objects,
+                 loaded->renderer);
+    tell_client(Ready{loaded->objects, loaded->triangles, loaded->renderer});
+    return {};
 }
 
 // --- the mesh of connections: every server connects to the display and to the servers with smaller ids
@@ -300,24 +321,26 @@ void ServerSession::draw(OpenFrame& frame) {
         job.pixels = std::move(pool_.back());
         pool_.pop_back();
     }
-    draw_thread_->draw(std::move(job), [self = shared_from_this(), number = frame.task.frame](Drawn drawn) {
-        asio::post(self->io_, [self, number, drawn = std::make_shared<Drawn>(std::move(drawn))] {
-            if (!self->draw_thread_) return;
-            if (!drawn->status) return self->give_up(drawn->status.error());
-            OpenFrame& open = self->frames_.at(number);
-            open.pixels = std::move(drawn->pixels);
-            ServerReport& report = open.report;
-            report.spans = std::move(drawn->spans);
-            // Before drawing it waited for its turn behind the frame before.
-            report.spans.insert(report.spans.begin(),
-                                {Phase::kWait, open.busy_until, report.spans.front().begin, Nanoseconds(0)});
-            report[Counter::kObjects] = drawn->objects;
-            report[Counter::kTriangles] = drawn->triangles;
-            open.busy_until = report.spans.back().end;
-            if (const auto status = self->run(self->swap_->on_drawn(number)); !status)
-                self->give_up(status.error());
+    draw_thread_->draw(std::move(job), [self = shared_from_this(), number = frame.task.frame](Drawn result) {
+        asio::post(self->io_, [self, number, drawn = std::make_shared<Drawn>(std::move(result))] {
+            self->resume([&] { return self->on_drawn(number, *drawn); });
         });
     });
+}
+
+Status ServerSession::on_drawn(FrameNumber number, Drawn& drawn) {
+    if (!drawn.status) return drawn.status;
+    OpenFrame& frame = frames_.at(number);
+    frame.pixels = std::move(drawn.pixels);
+    ServerReport& report = frame.report;
+    report.spans = std::move(drawn.spans);
+    // Before drawing it waited for its turn behind the frame before.
+    report.spans.insert(report.spans.begin(),
+                        {Phase::kWait, frame.busy_until, report.spans.front().begin, Nanoseconds(0)});
+    report[Counter::kObjects] = drawn.objects;
+    report[Counter::kTriangles] = drawn.triangles;
+    frame.busy_until = report.spans.back().end;
+    return run(swap_->on_drawn(number));
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 #include <boost/asio/io_context.hpp>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -46,6 +47,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     void need_model_part();
     Status on_model_part(const ModelPart& part, const Buffer& body);
     void load(Mesh mesh);
+    Status on_loaded(const Result<Loaded>& loaded);
     Status on_connect();
     void connect(const std::string& address, Role role, ServerId id);
     Status on_peer_hello(Role role, ServerId id, const Hello& hello) const;
@@ -55,11 +57,15 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     Status from_peer(ServerId from, Message&& message, Buffer&& body);
     Status run(const FrameSwap::Actions& actions);
     void draw(OpenFrame& frame);
+    Status on_drawn(FrameNumber number, Drawn& drawn);
     Status send_swath(OpenFrame& frame, ServerId to);
     Status composite(OpenFrame& frame, ServerId from);
     Status send_tile(OpenFrame& frame);
     Status finish(FrameNumber number);
     void tell_client(const Message& message);
+    // Does the rest of something that another thread began, unless the session is over; its errors end the
+    // session.
+    void resume(const std::function<Status()>& rest);
     void give_up(const Error& error);
 
     boost::asio::io_context& io_;

@@ -1,0 +1,57 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "common/base/result.h"
+
+namespace swath::bench {
+
+// What a benchmark found: named figures with their noise, printed as a table and written as JSON.
+class Figures {
+  public:
+    // The figure is the samples' median, its noise (max - min) / median. `bar` says what it is held against,
+    // for people.
+    void add(const std::string& name, std::vector<double> samples, const std::string& unit,
+             const std::string& bar);
+    // A line for people that is no figure.
+    void note(const std::string& text) { notes_.push_back(text); }
+
+    std::string to_text(const std::string& benchmark) const;  // with machine and commit
+    std::string to_json() const;                              // {"figures": {name: number}}
+
+  private:
+    struct Figure {
+        std::string name;
+        double value;
+        double noise;
+        std::size_t samples;
+        std::string unit;
+        std::string bar;
+    };
+    std::vector<Figure> figures_;
+    std::vector<std::string> notes_;
+};
+
+double median(std::vector<double> samples);
+
+// The Dragon: ../shared/models, else models/ as script/fetch-models leaves it.
+Result<std::string> dragon();
+
+// A program run to its end.
+struct Finished {
+    int exit_code = -1;
+    double cpu_s = 0;  // of the program and all its descendants, user and system
+    double wall_s = 0;
+    std::string output;           // stdout
+    double frames_per_s() const;  // as swath-client's summary says it; 0 if it does not
+};
+Finished run_program(const std::vector<std::string>& command);
+std::string client_program();  // swath-client beside this program
+
+// One benchmark a function; errors are what is missing (a model, a program).
+Status bench_cluster(Figures& figures);
+Status bench_swap(Figures& figures);
+Status bench_load(Figures& figures);
+Status bench_peers(Figures& figures);
+
+}  // namespace swath::bench

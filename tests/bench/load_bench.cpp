@@ -1,0 +1,31 @@
+#include <chrono>
+
+#include "common/scene/model.h"
+#include "common/scene/objects.h"
+#include "tests/bench/figures.h"
+
+namespace swath::bench {
+
+// File to objects, as a server does it; the file is in the page cache after the first time.
+Status bench_load(Figures& figures) {
+    const auto file = dragon();
+    if (!file) return tl::unexpected(file.error());
+    std::vector<double> total;
+    std::vector<double> reading;
+    for (int i = 0; i < 8; ++i) {
+        const auto begin = std::chrono::steady_clock::now();
+        auto mesh = load_model(*file);
+        if (!mesh) return tl::unexpected(mesh.error());
+        const auto read = std::chrono::steady_clock::now();
+        const ObjectSet scene = build_objects(std::move(*mesh), {});
+        const auto end = std::chrono::steady_clock::now();
+        if (i == 0) continue;
+        reading.push_back(std::chrono::duration<double>(read - begin).count());
+        total.push_back(std::chrono::duration<double>(end - begin).count());
+    }
+    figures.add("dragon_load_s", total, "s", "at most 1: file to objects");
+    figures.add("dragon_read_s", reading, "s", "the part that reads, checks and computes normals");
+    return {};
+}
+
+}  // namespace swath::bench

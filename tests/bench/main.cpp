@@ -1,0 +1,45 @@
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <map>
+
+#include "common/base/allocator.h"
+#include "common/base/file.h"
+#include "common/program/program.h"
+#include "tests/bench/figures.h"
+
+int main(int argc, char** argv) {
+    using namespace swath;
+    const std::map<std::string, Status (*)(bench::Figures&)> benchmarks{{"cluster", bench::bench_cluster},
+                                                                        {"load", bench::bench_load},
+                                                                        {"peers", bench::bench_peers},
+                                                                        {"swap", bench::bench_swap}};
+    std::string name;
+    std::string json;
+    CLI::App app{
+        "swath-bench: every figure that docs/benchmarks.md names, as ratios within one run where that is "
+        "possible.\n"
+        "  cluster  real processes: CPU of a cluster of one, and speed-up of two, against --single\n"
+        "  load     reading the Dragon and cutting it into objects\n"
+        "  peers    ours beside IceT's and OpenSceneGraph's on the Dragon\n"
+        "  swap     bytes a swapped pixel takes, and how fast pixels are merged\n"};
+    app.add_option("NAME", name, "which")
+        ->required()
+        ->check(CLI::IsMember({"cluster", "load", "peers", "swap"}));
+    app.add_option("--json", json, "write {\"figures\": {name: number}} to this file");
+    if (const auto code = parse_options(app, argc, argv)) return *code;
+    tune_allocator();
+    spdlog::set_level(spdlog::level::warn);
+
+    bench::Figures figures;
+    if (const auto status = benchmarks.at(name)(figures); !status) return run_error(status.error());
+    std::cout << figures.to_text(name);
+    if (!json.empty()) {
+        const std::string text = figures.to_json();
+        const auto status =
+            write_file(json, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+        if (!status) return run_error(status.error());
+    }
+    return kExitDone;
+}

@@ -1,0 +1,295 @@
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <random>
+
+#include "client/cluster/run_cluster.h"
+#include "client/path/path.h"
+#include "common/scene/model.h"
+#include "common/scene/model_blob.h"
+#include "display/session/display.h"
+#include "server/session/server.h"
+#include "tests/bench/figures.h"
+
+namespace swath::bench {
+namespace {
+
+// What others took for the same work on a machine like this one (2 cores): IceT 2.2, direct strategy, MPI
+// over TCP, a k-d split of the Dragon, all ranks on one core; OpenSceneGraph 3.6.5 with two llvmpipe threads.
+// 1280x960, about 42 % of the pixels covered.
+struct Peer {
+    std::size_t servers;
+    double icet_cpu_ns;  // a screen pixel
+    double icet_kib;     // a frame
+    double share;        // of those bytes that we allow ourselves
+};
+constexpr std::array<Peer, 3> kPeers{Peer{2, 2.6, 2934, 0.7}, Peer{4, 3.8, 4018, 0.5},
+                                     Peer{8, 6.2, 5809, 0.5}};
+constexpr double kOsgFps = 8.7;
+constexpr double kOsgCpuMs = 190;
+
+constexpr int kWidth = 1280;
+constexpr int kHeight = 960;
+constexpr std::size_t kViews = 9;
+
+// The peers' orbit: about y, 30 degrees of view, the eye 0.29 from the box's centre.
+std::vector<Camera> peers_orbit(const Box& bounds) {
+    std::vector<Camera> cameras;
+    for (std::size_t i = 0; i < kViews; ++i) {
+        const double angle = 2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(kViews);
+        Camera camera;
+        camera.target = bounds.centre();
+        camera.eye = camera.target + 0.29f * glm::vec3(std::sin(angle), 0, std::cos(angle));
+        camera.fov_y = 0.5235988f;
+        cameras.push_back(with_depth_range(camera, bounds));
+    }
+    return cameras;
+}
+
+// Draws a view once and then hands out the same pixels: what is left of a server is swap, composite and
+// gather.
+class CachedRenderer final : public Renderer {
+  public:
+    explicit CachedRenderer(std::unique_ptr<Renderer> renderer) : renderer_(std::move(renderer)) {}
+
+    Status draw(std::span<const ObjectId> objects, const View& view, const Rect& rect) override {
+        key_.assign(reinterpret_cast<const char*>(&view.clip_from_model), sizeof view.clip_from_model);
+        return frames_.contains(key_) ? Status{} : renderer_->draw(objects, view, rect);
+    }
+    Status read(const Rect& rect, PixelFrame& frame) override {
+        PixelFrame& cached = frames_[key_];
+        if (cached.rect().empty()) {
+            cached.reshape(rect);
+            if (const auto status = renderer_->read(rect, cached); !status) return status;
+        }
+        for (int y = rect.y0; y < rect.y1; ++y) {
+            const std::size_t bytes = 4 * static_cast<std::size_t>(rect.width());
+            std::memcpy(frame.colour(rect.x0, y), cached.colour(rect.x0, y), bytes);
+            std::memcpy(frame.depth(rect.x0, y), cached.depth(rect.x0, y), bytes);
+            std::memcpy(frame.id(rect.x0, y), cached.id(rect.x0, y), bytes);
+        }
+        return {};
+    }
+    std::string description() const override { return "cached " + renderer_->description(); }
+
+  private:
+    std::unique_ptr<Renderer> renderer_;
+    std::string key_;
+    std::map<std::string, PixelFrame> frames_;
+};
+
+// A child process that runs a server or a display of ours; ends with this object.
+class Child {
+  public:
+    template <class Make>
+    explicit Child(const Make& make) {
+        std::array<int, 2> out{};
+        if (::pipe(out.data()) != 0) std::abort();
+        pid_ = ::fork();
+        if (pid_ == 0) {
+            ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+            const SteadyClock clock;
+            boost::asio::io_context io(1);
+            const auto host = make(io, clock);
+            const std::uint16_t port = host ? (*host)->address().port : std::uint16_t{0};
+            if (::write(out[1], &port, sizeof port) != sizeof port) ::_exit(1);
+            io.run();
+            ::_exit(0);
+        }
+        ::close(out[1]);
+        if (::read(out[0], &address_.port, sizeof address_.port) != sizeof address_.port) address_.port = 0;
+        ::close(out[0]);
+        address_.host = "127.0.0.1";
+    }
+    ~Child() {
+        ::kill(pid_, SIGKILL);
+        ::waitpid(pid_, nullptr, 0);
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    const Address& address() const { return address_; }
+    double cpu_s() const {
+        clockid_t clock{};
+        timespec time{};
+        if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+
+  private:
+    pid_t pid_ = -1;
+    Address address_;
+};
+
+double process_cpu_s() {
+    timespec time{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// Swap, composite and gather of `peer.servers` server processes and a display on one core over TCP: all their
+// CPU time and the client's, less what the timeline says went into partitioning, culling, drawing and reading
+// back.
+Status bench_swap_stage(Figures& figures, const Peer& peer, const ObjectSet& scene, const Mesh& mesh) {
+    constexpr std::size_t kPasses = 12;  // the first fills the caches
+    std::vector<std::unique_ptr<Child>> servers;
+    for (std::size_t i = 0; i < peer.servers; ++i)
+        servers.push_back(std::make_unique<Child>([](boost::asio::io_context& io, const Clock& clock) {
+            ServerOptions options;
+            options.cache = std::filesystem::temp_directory_path() / "swath-bench";
+            return make_server(
+                io, options, clock,
+                [](RendererKind kind, const ObjectSet& objects) -> Result<std::unique_ptr<Renderer>> {
+                    auto renderer = make_renderer(kind, objects);
+                    if (!renderer) return renderer;
+                    return std::make_unique<CachedRenderer>(std::move(*renderer));
+                });
+        }));
+    const Child display(
+        [](boost::asio::io_context& io, const Clock& clock) { return make_display(io, {}, clock); });
+
+    ClusterJob job;
+    for (const auto& server : servers) job.servers.push_back(server->address());
+    job.display = display.address();
+    job.model = "none: the client has it";
+    job.scene = &scene;
+    job.blob = write_blob(mesh);
+    const auto orbit = peers_orbit(scene.bounds);
+    for (std::size_t pass = 0; pass < kPasses; ++pass)
+        job.cameras.insert(job.cameras.end(), orbit.begin(), orbit.end());
+    job.width = kWidth;
+    job.height = kHeight;
+    job.session = std::random_device{}();
+    job.timing.silence_limit = std::chrono::seconds(20);
+
+    const auto all_cpu = [&] {
+        double sum = process_cpu_s() + display.cpu_s();
+        for (const auto& server : servers) sum += server->cpu_s();
+        return sum;
+    };
+    std::vector<double> cpu_at;  // when a pass was complete
+    const SteadyClock clock;
+    std::size_t done = 0;
+    const auto timelines = run_cluster(
+        std::move(job), clock, [] {},
+        [&](FrameNumber, const Buffer&) -> Status {
+            if (++done % kViews == 0) cpu_at.push_back(all_cpu());
+            return {};
+        });
+    if (!timelines) return tl::unexpected(timelines.error());
+
+    std::vector<double> cpu_ns;
+    std::vector<double> kib;
+    for (std::size_t pass = 2; pass < kPasses; ++pass) {
+        double other = 0;
+        double bytes = 0;
+        for (std::size_t f = pass * kViews; f < (pass + 1) * kViews; ++f)
+            for (const MachineTimeline& machine : (*timelines)[f].machines) {
+                bytes += static_cast<double>(machine[Counter::kSwapBytes] + machine[Counter::kTileBytes]);
+                for (const Span& span : machine.spans)
+                    if (span.phase == Phase::kPartition || span.phase == Phase::kCull ||
+                        span.phase == Phase::kRender || span.phase == Phase::kPixelRead)
+                        other += std::chrono::duration<double>(span.cpu).count();
+            }
+        cpu_ns.push_back((cpu_at[pass] - cpu_at[pass - 1] - other) / kViews / (kWidth * kHeight) * 1e9);
+        kib.push_back(bytes / kViews / 1024);
+    }
+    figures.add(fmt::format("swap_cpu_ns_n{}", peer.servers), cpu_ns, "ns/pixel",
+                fmt::format("at most IceT's {:.1f}: CPU of all machines a screen pixel", peer.icet_cpu_ns));
+    figures.add(fmt::format("swap_kib_n{}", peer.servers), kib, "KiB",
+                fmt::format("at most {:.0f} = {:.1f} of IceT's {:.0f}: swapped and gathered a frame",
+                            peer.share * peer.icet_kib, peer.share, peer.icet_kib));
+    return {};
+}
+
+// One core for this process and its children, as IceT's figures were taken.
+class OneCore {
+  public:
+    OneCore() {
+        ::sched_getaffinity(0, sizeof before_, &before_);
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        for (int i = 0; i < CPU_SETSIZE; ++i)
+            if (CPU_ISSET(i, &before_)) {
+                CPU_SET(i, &one);
+                break;
+            }
+        ::sched_setaffinity(0, sizeof one, &one);
+    }
+    ~OneCore() { ::sched_setaffinity(0, sizeof before_, &before_); }
+    OneCore(const OneCore&) = delete;
+    OneCore& operator=(const OneCore&) = delete;
+
+  private:
+    cpu_set_t before_{};
+};
+
+// Whole frames of real processes.
+Status bench_frames(Figures& figures, const std::string& model, const Box& bounds) {
+    const auto folder = std::filesystem::temp_directory_path() / fmt::format("swath-bench-{}", ::getpid());
+    std::filesystem::create_directories(folder);
+    const std::string path = (folder / "orbit.txt").string();
+    {
+        std::ofstream file(path);
+        for (const Camera& c : peers_orbit(bounds))
+            file << fmt::format("{} {} {} {} {} {} 0 1 0 30\n", c.eye.x, c.eye.y, c.eye.z, c.target.x,
+                                c.target.y, c.target.z);
+    }
+    const auto render = [&](std::size_t frames) {
+        return run_program({client_program(), model, "--quiet", "--local", "2", "--path", path, "--frames",
+                            std::to_string(frames)});
+    };
+    constexpr std::size_t kFrames = 54;
+    std::vector<double> fps;
+    std::vector<double> cpu_ms;
+    for (int i = 0; i < 5; ++i) {
+        const Finished start = render(1);
+        const Finished run = render(1 + kFrames);
+        if (start.exit_code != 0 || run.exit_code != 0)
+            return fail("swath-client failed with exit code {}", run.exit_code);
+        fps.push_back(run.frames_per_s());
+        cpu_ms.push_back((run.cpu_s - start.cpu_s) / kFrames * 1000);
+    }
+    std::filesystem::remove_all(folder);
+    figures.add("fps_n2", fps, "1/s",
+                fmt::format("more than OpenSceneGraph's {:.1f}, the best single process", kOsgFps));
+    figures.add("cpu_ms_n2", cpu_ms, "ms",
+                fmt::format("less than its {:.0f}: CPU of all programs a frame", kOsgCpuMs));
+    return {};
+}
+
+}  // namespace
+
+Status bench_peers(Figures& figures) {
+    const auto file = dragon();
+    if (!file) return tl::unexpected(file.error());
+    ::setenv("LP_NUM_THREADS", "0", 1);
+    const auto mesh = load_model(*file);
+    if (!mesh) return tl::unexpected(mesh.error());
+    const ObjectSet scene = build_objects(*mesh, {});
+    {
+        const OneCore one_core;
+        for (const Peer& peer : kPeers)
+            if (const auto status = bench_swap_stage(figures, peer, scene, *mesh); !status) return status;
+    }
+    figures.note(
+        "IceT 2.2.0: 2.6, 3.8, 6.2 ns and 2,934, 4,018, 5,809 KiB on 2, 4, 8 ranks (direct, TCP, one core).");
+    figures.note(
+        "CPU a frame, one process: OpenSceneGraph 3.6.5 192-201 ms, 8.7 frames/s; VTK 9.1 242-245 ms, 7.25; "
+        "ParaView 5.11 265-302 ms, 6.3.");
+    return bench_frames(figures, *file, scene.bounds);
+}
+
+}  // namespace swath::bench
