@@ -14,7 +14,7 @@ namespace swath {
 
 // Draws objects of one ObjectSet and hands out the pixels. What it draws for a pixel depends on the objects
 // and the view only, never on the other pixels asked for: that is what makes a cluster's picture exact. A
-// resource bound to the thread that made it: every call comes from there.
+// resource bound to the thread that made it: every call comes from there, and no second renderer lives there.
 class Renderer {
   public:
     virtual ~Renderer() = default;

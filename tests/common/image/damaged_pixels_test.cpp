@@ -15,7 +15,7 @@ using namespace test;
 using testing::HasSubstr;
 
 struct SpanEntry {
-    int x, length;
+    std::uint32_t skipped, length;
 };
 struct IdRun {
     std::uint32_t length;
@@ -30,17 +30,17 @@ class Body {
         return *this;
     }
     Body& row(const std::vector<SpanEntry>& spans) {
-        u16(static_cast<int>(spans.size()));
+        varint(spans_, spans.size());
         for (const SpanEntry& s : spans) {
-            u16(s.x);
-            u16(s.length);
+            varint(spans_, s.skipped);
+            varint(spans_, s.length);
         }
         return *this;
     }
     Body& ids(const std::vector<IdRun>& runs) {
         for (const IdRun& r : runs) {
-            varint(r.length);
-            varint(static_cast<std::uint64_t>((r.step << 1) ^ (r.step >> 63)));
+            varint(ids_, r.length);
+            varint(ids_, static_cast<std::uint64_t>((r.step << 1) ^ (r.step >> 63)));
         }
         return *this;
     }
@@ -56,9 +56,9 @@ class Body {
     // The error's line; empty for success. The region: two rows of four pixels.
     std::string composited(const Region& region = {{2, 1, 6, 3}}) const {
         Buffer body;
-        const std::vector<std::uint32_t> colours(depths_.size(), 0xff00ff00);
-        body.append(colours.data(), 4 * colours.size());
+        const std::vector<std::uint8_t> colours(3 * depths_.size(), 77);
         body.append(depths_.data(), 4 * depths_.size());
+        body.append(colours.data(), colours.size());
         body.append(spans_.data(), spans_.size());
         body.append(ids_.data(), ids_.size());
         PixelFrame frame;
@@ -83,13 +83,9 @@ class Body {
         return {static_cast<std::uint32_t>(depths_.size()), static_cast<std::uint32_t>(spans_.size()),
                 static_cast<std::uint32_t>(ids_.size())};
     }
-    void u16(int value) {
-        spans_.push_back(static_cast<std::uint8_t>(value));
-        spans_.push_back(static_cast<std::uint8_t>(value >> 8));
-    }
-    void varint(std::uint64_t value) {
-        for (; value >= 0x80; value >>= 7) ids_.push_back(static_cast<std::uint8_t>(value | 0x80));
-        ids_.push_back(static_cast<std::uint8_t>(value));
+    static void varint(std::vector<std::uint8_t>& out, std::uint64_t value) {
+        for (; value >= 0x80; value >>= 7) out.push_back(static_cast<std::uint8_t>(value | 0x80));
+        out.push_back(static_cast<std::uint8_t>(value));
     }
     std::vector<float> depths_;
     std::vector<std::uint8_t> spans_;
@@ -103,7 +99,7 @@ Body with_spans(const std::vector<SpanEntry>& row1, const std::vector<SpanEntry>
 
 TEST(DamagedSwath, IsNotWhatThisTestWritesByHand) {
     EXPECT_EQ(with_spans({{0, 2}}, {{3, 1}}).composited(), "");
-    EXPECT_EQ(with_spans({{0, 1}, {1, 1}}, {{3, 1}}).composited(), "");  // spans that touch are as good
+    EXPECT_EQ(with_spans({{0, 1}, {0, 1}}, {{3, 1}}).composited(), "");  // spans that touch are as good
 }
 
 TEST(DamagedSwath, HasADepthThatIsNone) {
@@ -115,25 +111,27 @@ TEST(DamagedSwath, HasADepthThatIsNone) {
 }
 
 TEST(DamagedSwath, HasSpansThatAreNone) {
-    EXPECT_EQ(with_spans({{0, 0}, {0, 2}}, {{3, 1}}).composited(), "spans: 0 pixels from 0 in a row of 4");
-    EXPECT_EQ(with_spans({{3, 2}}, {{3, 1}}).composited(), "spans: 2 pixels from 3 in a row of 4");
-    EXPECT_EQ(with_spans({{4, 1}}, {{3, 1}}).composited(), "spans: 1 pixels from 4 in a row of 4");
-    EXPECT_EQ(with_spans({{0, 2}, {1, 1}}, {}).composited(), "spans: 1 pixels from 1 in a row of 4");
-    EXPECT_EQ(with_spans({{2, 1}, {0, 1}}, {{3, 1}}).composited(), "spans: 1 pixels from 0 in a row of 4");
-    EXPECT_EQ(with_spans({{0xffff, 0xffff}}, {}).composited(),
-              "spans: 65535 pixels from 65535 in a row of 4");
+    const std::string in = " skipped in a row of 4";
+    EXPECT_EQ(with_spans({{0, 0}, {0, 2}}, {{3, 1}}).composited(), "spans: 0 pixels after 0 and 0" + in);
+    EXPECT_EQ(with_spans({{3, 2}}, {{3, 1}}).composited(), "spans: 2 pixels after 0 and 3" + in);
+    EXPECT_EQ(with_spans({{4, 1}}, {{3, 1}}).composited(), "spans: 1 pixels after 0 and 4" + in);
+    EXPECT_EQ(with_spans({{0, 2}, {2, 1}}, {}).composited(), "spans: 1 pixels after 2 and 2" + in);
+    EXPECT_EQ(with_spans({{0, 2}, {0xffffffff, 1}}, {}).composited(),
+              "spans: 1 pixels after 2 and 4294967295" + in);
+    EXPECT_EQ(with_spans({{0, 2}, {1, 0xffffffff}}, {}).composited(),
+              "spans: 4294967295 pixels after 2 and 1" + in);
 }
 
 TEST(DamagedSwath, HasMoreOrFewerSpansThanPixels) {
     EXPECT_EQ(with_spans({{0, 4}}, {}).composited(), "spans: more pixels than the 3 announced");
     EXPECT_EQ(with_spans({{0, 2}}, {{0, 2}}).composited(), "spans: more pixels than the 3 announced");
     EXPECT_EQ(with_spans({{0, 2}}, {}).composited(), "spans: 2 pixels where 3 were announced");
-    EXPECT_EQ(with_spans({{0, 3}}, {}).row({}).composited(), "spans: 2 bytes too many");
-    EXPECT_EQ(three_pixels().row({{0, 3}}).ids({{3, 0}}).composited(), "spans: the table ends in row 2");
-    EXPECT_EQ(three_pixels().row({{0, 3}}).span_bytes({1, 0, 1, 0}).ids({{3, 0}}).composited(),
-              "spans: the table ends in row 2");
-    EXPECT_EQ(three_pixels().span_bytes({0xff, 0xff}).ids({{3, 0}}).composited(),
-              "spans: the table ends in row 1");
+    EXPECT_EQ(with_spans({{0, 3}}, {}).row({}).composited(), "spans: 1 bytes too many");
+    const Body row1 = three_pixels().row({{0, 3}}).ids({{3, 0}});
+    EXPECT_EQ(row1.composited(), "spans: the table ends in row 2");
+    for (const std::vector<std::uint8_t>& bytes : std::vector<std::vector<std::uint8_t>>{
+             {1}, {1, 0}, {0x80}, {0x81, 0x80}, {0xff, 0xff, 0xff, 0xff, 0x0f}})
+        EXPECT_EQ(Body(row1).span_bytes(bytes).composited(), "spans: the table ends in row 2");
 }
 
 TEST(DamagedSwath, HasIdsThatAreNone) {
@@ -166,7 +164,8 @@ TEST(DamagedSwath, AnnouncesMorePixelsThanItsRegionHas) {
 
 TEST(DamagedTile, IsRefusedLikeASwath) {
     EXPECT_EQ(three_pixels().row({{0, 2}}).row({{3, 1}}).assembled(), "");
-    EXPECT_EQ(three_pixels().row({{0, 2}}).row({{3, 2}}).assembled(), "spans: 2 pixels from 3 in a row of 4");
+    EXPECT_EQ(three_pixels().row({{0, 2}}).row({{3, 2}}).assembled(),
+              "spans: 2 pixels after 0 and 3 skipped in a row of 4");
     EXPECT_EQ(three_pixels().row({{0, 2}}).row({}).assembled(), "spans: 2 pixels where 3 were announced");
     EXPECT_EQ(three_pixels().row({{0, 3}}).row({}).ids({{3, 0}}).assembled(), "a tile with object ids");
 }

@@ -63,7 +63,7 @@ inline PixelFrame random_frame(const Rect& rect, Random& random, int coverage) {
                 // What two peers draw of one object at one depth is the same pixel.
                 p.depth = kDepths[random() % 5];
                 p.id = id;
-                p.colour = static_cast<std::uint32_t>(y * 65536 + x * 512) + id;
+                p.colour = 0xff000000u | static_cast<std::uint32_t>(y * 65536 + x * 512) | (id & 0xff);
             }
             put(frame, x, y, p);
         }

@@ -28,42 +28,40 @@ void composite(const PixelFrame& from, const Region& region, PixelFrame& to) {
     ASSERT_TRUE(status.has_value()) << status.error().message;
 }
 
-// The example of docs/wire.md: two rectangles' worth of words there, the same bytes here.
+// The example of docs/wire.md.
 class WorkedExample : public testing::Test {
   protected:
     WorkedExample() {
-        frame_.reshape({0, 0, 8, 4});
+        frame_.reshape({0, 0, 16, 8});
         frame_.clear(frame_.rect());
-        put(frame_, 3, 1, {0xff332211, 0.5f, 5});
-        put(frame_, 4, 1, {0xff665544, 0.5f, 5});
-        put(frame_, 5, 2, {0xff998877, 0.25f, 2});
-        put(frame_, 7, 1, {0xffffffff, 0.5f, 9});  // outside of the region
+        put(frame_, 9, 4, {0xff102030, 0.5f, 300});
+        put(frame_, 10, 4, {0xff112131, 0.25f, 300});
+        put(frame_, 11, 5, {0xffc0b0a0, 0.75f, 5});
+        put(frame_, 12, 4, {0xffffffff, 0.5f, 9});  // outside of the region
     }
-    const Region region_{{2, 1, 6, 3}};
+    const Region region_{{8, 4, 12, 6}};
     PixelFrame frame_;
 };
 
 TEST_F(WorkedExample, OfASwathHasTheseBytes) {
     Buffer body;
-    EXPECT_EQ(encode_swath(frame_, region_, body), (BodySizes{3, 12, 4}));
-    EXPECT_EQ(bytes_of(body),
-              (std::vector<std::uint8_t>{
-                  0x11, 0x22, 0x33, 0xff, 0x44, 0x55, 0x66, 0xff, 0x77, 0x88, 0x99,
-                  0xff, 0x00, 0x00, 0x00, 0x3f, 0x00, 0x00, 0x00, 0x3f, 0x00, 0x00,
-                  0x80, 0x3e, 0x01, 0x00, 0x01, 0x00, 0x02, 0x00,  // row 1: one span, from 1, 2 pixels
-                  0x01, 0x00, 0x03, 0x00, 0x01, 0x00,              // row 2: one span, from 3, 1 pixel
-                  0x02, 0x0a, 0x01, 0x05,                          // 2 of object 0 + 5, 1 of 5 - 3
-              }));
+    EXPECT_EQ(encode_swath(frame_, region_, body), (BodySizes{3, 6, 6}));
+    EXPECT_EQ(bytes_of(body), (std::vector<std::uint8_t>{
+                                  0x00, 0x00, 0x00, 0x3f, 0x00, 0x00, 0x80, 0x3e, 0x00,
+                                  0x00, 0x40, 0x3f, 0x30, 0x20, 0x10, 0x31, 0x21, 0x11,
+                                  0xa0, 0xb0, 0xc0, 0x01, 0x01, 0x02,  // row 4: one span, 1 skipped, 2 pixels
+                                  0x01, 0x03, 0x01,                    // row 5: one span, 3 skipped, 1 pixel
+                                  0x02, 0xd8, 0x04,                    // 2 of object 0 + 300
+                                  0x01, 0xcd, 0x04,                    // 1 of object 300 - 295
+                              }));
 }
 
 TEST_F(WorkedExample, OfATileHasTheseBytes) {
     Buffer body;
-    EXPECT_EQ(encode_tile(frame_, region_, body), (BodySizes{3, 12, 0}));
-    EXPECT_EQ(bytes_of(body), (std::vector<std::uint8_t>{
-                                  0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88, 0x99,  //
-                                  0x01, 0x00, 0x01, 0x00, 0x02, 0x00,                    //
-                                  0x01, 0x00, 0x03, 0x00, 0x01, 0x00,                    //
-                              }));
+    EXPECT_EQ(encode_tile(frame_, region_, body), (BodySizes{3, 6, 0}));
+    EXPECT_EQ(bytes_of(body),
+              (std::vector<std::uint8_t>{0x30, 0x20, 0x10, 0x31, 0x21, 0x11, 0xa0, 0xb0, 0xc0,  //
+                                         0x01, 0x01, 0x02, 0x01, 0x03, 0x01}));
 }
 
 TEST(Swath, ThatIsCompositedEqualsMergingPixelByPixel) {
@@ -93,7 +91,7 @@ TEST(Swath, GoesBetweenFramesThatCoverDifferentRectangles) {
     EXPECT_EQ(pixel(ours, 9, 20), Pixel{});
 }
 
-TEST(Swath, CostsEightBytesAPixelAndItsSpansAndIds) {
+TEST(Swath, CostsSevenBytesAPixelAndItsSpansAndIds) {
     Random random(3);
     for (int round = 0; round < 100; ++round) {
         const Rect rect = random_rect(random, 1 + below(random, 60));
@@ -109,8 +107,9 @@ TEST(Swath, CostsEightBytesAPixelAndItsSpansAndIds) {
         Buffer body;
         const BodySizes sizes = encode_swath(frame, {rect}, body);
         EXPECT_EQ(sizes.pixels, active);
-        EXPECT_EQ(sizes.span_bytes, 2 * static_cast<std::uint32_t>(rect.height()) + 4 * spans);
-        EXPECT_EQ(body.size(), 8 * active + sizes.span_bytes + sizes.id_bytes);
+        // All numbers of rows this short take a byte.
+        EXPECT_EQ(sizes.span_bytes, static_cast<std::uint32_t>(rect.height()) + 2 * spans);
+        EXPECT_EQ(body.size(), 7 * active + sizes.span_bytes + sizes.id_bytes);
         Buffer tile;
         EXPECT_EQ(encode_tile(frame, {rect}, tile), (BodySizes{active, sizes.span_bytes, 0}));
         EXPECT_EQ(tile.size(), 3 * active + sizes.span_bytes);
@@ -121,7 +120,7 @@ TEST(Swath, OfOneObjectSendsItsIdOnce) {
     PixelFrame frame;
     frame.reshape({0, 0, 100, 100});
     for (int y = 0; y < 100; ++y)
-        for (int x = 0; x < 100; ++x) put(frame, x, y, {1, 0.5f, 299});
+        for (int x = 0; x < 100; ++x) put(frame, x, y, {0xff000001, 0.5f, 299});
     Buffer body;
     // 10,000 takes two bytes and 2 * 299 too.
     EXPECT_EQ(encode_swath(frame, {frame.rect()}, body).id_bytes, 4u);
@@ -131,7 +130,8 @@ TEST(Swath, CarriesEveryObjectIdThereCanBe) {
     const std::vector<ObjectId> ids{0, 1, 63, 64, 8191, 1u << 28, kMaxObjects - 1, 0, kMaxObjects - 1, 5};
     PixelFrame frame;
     frame.reshape({0, 0, static_cast<int>(ids.size()), 1});
-    for (std::size_t i = 0; i < ids.size(); ++i) put(frame, static_cast<int>(i), 0, {7, 0.5f, ids[i]});
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        put(frame, static_cast<int>(i), 0, {0xff000007, 0.5f, ids[i]});
     Buffer body;
     const BodySizes sizes = encode_swath(frame, {frame.rect()}, body);
     PixelFrame back;
@@ -145,7 +145,7 @@ TEST(Swath, WithoutActivePixelsIsACountARow) {
     Random random(4);
     const PixelFrame frame = random_frame({0, 0, 33, 5}, random, 0);
     Buffer body;
-    EXPECT_EQ(encode_swath(frame, {frame.rect()}, body), (BodySizes{0, 10, 0}));
+    EXPECT_EQ(encode_swath(frame, {frame.rect()}, body), (BodySizes{0, 5, 0}));
     EXPECT_EQ(encode_swath(frame, {}, body), (BodySizes{}));
     EXPECT_EQ(body.size(), 0u);
     PixelFrame ours = copy(frame);
@@ -174,15 +174,15 @@ TEST(Swath, MustLieInTheFrame) {
 TEST(Composite, OfEqualDepthsKeepsTheSmallerIdInBothOrders) {
     PixelFrame low;
     low.reshape({0, 0, 1, 1});
-    put(low, 0, 0, {111, 0.5f, 3});
+    put(low, 0, 0, {0xff000111, 0.5f, 3});
     PixelFrame high = copy(low);
-    put(high, 0, 0, {222, 0.5f, 4});
+    put(high, 0, 0, {0xff000222, 0.5f, 4});
     PixelFrame first = copy(low);
     composite(high, {low.rect()}, first);
-    EXPECT_EQ(pixel(first, 0, 0), (Pixel{111, 0.5f, 3}));
+    EXPECT_EQ(pixel(first, 0, 0), (Pixel{0xff000111, 0.5f, 3}));
     PixelFrame second = copy(high);
     composite(low, {low.rect()}, second);
-    EXPECT_EQ(pixel(second, 0, 0), (Pixel{111, 0.5f, 3}));
+    EXPECT_EQ(pixel(second, 0, 0), (Pixel{0xff000111, 0.5f, 3}));
 }
 
 TEST(Composite, DoesNotDependOnTheOrderOfPeers) {

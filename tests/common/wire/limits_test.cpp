@@ -133,6 +133,7 @@ class RenderFrameLimit : public testing::Test {
 };
 
 TEST_F(RenderFrameLimit, OfTheView) {
+    const std::string size = ", the limits are 16384 a side and 67108864 pixels";
     const std::string numbers = "view: a matrix of 16 and a vector of 3 are expected";
     expect([](auto& m) { m.clear_clip_from_model(); }, numbers);
     expect([](auto& m) { m.add_clip_from_model(0); }, numbers);
@@ -141,9 +142,9 @@ TEST_F(RenderFrameLimit, OfTheView) {
            "clip_from_model: not a finite number");
     expect([](auto& m) { m.set_to_light(2, std::numeric_limits<float>::quiet_NaN()); },
            "to_light: not a finite number");
-    expect([](auto& m) { m.set_width(0); }, "width: 0, the limits are 1 and 16384");
-    expect([](auto& m) { m.set_height(16385); }, "height: 16385, the limits are 1 and 16384");
-    expect([](auto& m) { m.set_height(0x80000001); }, "height: 2147483649, the limits are 1 and 16384");
+    expect([](auto& m) { m.set_width(0); }, "size: 0x48" + size);
+    expect([](auto& m) { m.set_height(16385); }, "size: 64x16385" + size);
+    expect([](auto& m) { m.set_height(0x80000001); }, "size: 64x2147483649" + size);
 }
 
 TEST_F(RenderFrameLimit, OfTheGroup) {
@@ -229,8 +230,15 @@ TEST(WireLimit, OfAssembleFrame) {
             3, 64, 48, {1, 2, 3}, {{server_id(0), {{0, 0, 32, 48}}}, {server_id(4), {{32, 0, 64, 48}}}}},
         &pb::Head::mutable_assemble_frame);
     const std::string in = "a garbled assemble_frame message: ";
-    task.expect([](auto& m) { m.set_width(0); }, in + "width: 0, the limits are 1 and 16384");
-    task.expect([](auto& m) { m.set_height(16385); }, in + "height: 16385, the limits are 1 and 16384");
+    const std::string size = ", the limits are 16384 a side and 67108864 pixels";
+    task.expect([](auto& m) { m.set_width(0); }, in + "size: 0x48" + size);
+    task.expect([](auto& m) { m.set_height(16385); }, in + "size: 64x16385" + size);
+    task.expect(
+        [](auto& m) {
+            m.set_width(8193);
+            m.set_height(8192);
+        },
+        in + "size: 8193x8192" + size);
     task.expect([](auto& m) { m.set_background(0x1000000); },
                 in + "background: 0x1000000, the limit is 0xffffff");
     task.expect([](auto& m) { m.mutable_tiles(1)->set_server(0); }, in + "tiles: servers are not ascending");

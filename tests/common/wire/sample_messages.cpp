@@ -47,7 +47,7 @@ class Maker {
             made.push_back({server_id(s), region(in)});
         return made;
     }
-    int side() { return 1 + static_cast<int>(below(below(2) == 0 ? 40 : kMaxPictureSide)); }
+    int side() { return 1 + static_cast<int>(below(below(2) == 0 ? 40 : 8192)); }
 
     RenderFrame render_frame() {
         RenderFrame m;
