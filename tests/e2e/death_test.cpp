@@ -62,7 +62,7 @@ TEST_F(Death, KilledRemoteServerIsNamedAndTheOthersGoOn) {
     const auto client = running(cluster->flags());
     cluster->server(1).signal(SIGKILL);
     // Whoever hears of it first reports it.
-    expect_one_error(client->wait(kSlowdown * seconds(2)), 1, {"server 1"});
+    expect_one_error(client->wait(kSlowdown * seconds(2)), 1, {"server 1 at " + cluster->server_address(1)});
     const auto again =
         run("swath-client", Arguments{"builtin:knot:5000", "--size", "64x48", "--frames", "2", "--servers",
                                       cluster->server_address(0) + "," + cluster->server_address(2),
