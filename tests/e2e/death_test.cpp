@@ -45,7 +45,7 @@ class Death : public EndToEnd {
 };
 
 TEST_F(Death, KilledLocalServerEndsTheRunWithinTwoSeconds) {
-    for (const std::size_t victim : {0, 2}) {
+    for (const std::size_t victim : {0u, 2u}) {
         const auto client = running({"--local", "3"});
         const auto servers = children_named(*client, "swath-server");
         ASSERT_EQ(servers.size(), 3u);
