@@ -85,7 +85,7 @@ TEST_F(Death, FrozenServerEndsTheRunAndIsKilled) {
     const auto servers = children_named(*client, "swath-server");
     ASSERT_EQ(servers.size(), 3u);
     ::kill(servers[1], SIGSTOP);
-    expect_one_error(client->wait(kSlowdown * milliseconds(2600)), 1, {"server 1", "silent"});
+    expect_one_error(client->wait(kSlowdown * milliseconds(2800)), 1, {"server 1", "silent"});
     EXPECT_TRUE(all_end_within(servers, kSlowdown * milliseconds(500)));
 }
 
@@ -94,7 +94,7 @@ TEST_F(Death, FrozenDisplayEndsTheRunAndIsKilled) {
     const auto displays = children_named(*client, "swath-display");
     ASSERT_EQ(displays.size(), 1u);
     ::kill(displays[0], SIGSTOP);
-    expect_one_error(client->wait(kSlowdown * milliseconds(2600)), 1, {"display", "silent"});
+    expect_one_error(client->wait(kSlowdown * milliseconds(2800)), 1, {"display", "silent"});
     EXPECT_TRUE(all_end_within(displays, kSlowdown * milliseconds(500)));
 }
 
