@@ -33,8 +33,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1 << 24))
         ->each([&](const std::string& v) { options.max_model_bytes = std::stoull(v) << 20; });
     app.add_option("--threads", threads,
-                   "threads that Mesa adds for rasterising; 0: the drawing thread alone [LP_NUM_THREADS, "
-                   "else one per core]")
+                   "threads that Mesa adds for rasterising; 0: the drawing thread alone\n"
+                   "[LP_NUM_THREADS, else one per core]")
         ->check(CLI::Range(0, 256));
     add_program_options(app, program, options.timing);
     add_lifeline_option(app, program);
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     start_log("swath-server", program);
 
     const auto address = parse_address(listen);
-    if (!address) return usage_error(address.error());
+    if (!address) return usage_error({"--listen: " + address.error().message});
     options.listen = *address;
     options.cache = cache;
     if (threads >= 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
