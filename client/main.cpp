@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
     if (!options) return options.error();
     start_log("swath-client", options->program);
     tune_allocator();
+    if (options->single) set_raster_threads(options->threads);
     const auto status = run_client(*options);
     return status ? kExitDone : run_error(status.error());
 }

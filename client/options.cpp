@@ -124,9 +124,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--in-flight", options.in_flight, "frames begun and not complete at a time")
         ->capture_default_str()
         ->check(CLI::Range(1, 8));
-    app.add_option("--threads", options.threads,
-                   "raster threads that Mesa adds in each process [what the cores allow]")
-        ->check(CLI::Range(0, 256));
+    add_threads_option(app, options.threads);
     app.add_option("--out", options.out, "folder for the pictures, frame_0000.png and so on [none are kept]");
     app.add_option("--format", format, "of the pictures: png (exact) or jpeg")
         ->capture_default_str()

@@ -3,7 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdlib>
+
 #include <filesystem>
 #include <iostream>
 #include <random>
@@ -24,12 +24,10 @@
 namespace swath {
 namespace {
 
-// Several processes share this machine's cores: each draws with its own thread and as many more as are left
+// Several servers share this machine's cores: each draws with its own thread and as many more as are left
 // over.
-std::string mesa_threads(const ClientOptions& options) {
-    if (options.threads >= 0) return std::to_string(options.threads);
-    const std::size_t processes = options.single ? 1 : options.local;
-    return std::to_string(std::max<std::size_t>(1, std::thread::hardware_concurrency() / processes) - 1);
+std::string raster_threads(std::size_t servers) {
+    return std::to_string(std::max<std::size_t>(1, std::thread::hardware_concurrency() / servers) - 1);
 }
 
 Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) {
@@ -38,8 +36,8 @@ Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) 
     local.servers = options.local;
     local.arguments = {"--quiet", "--silence-ms",
                        std::to_string(options.timing.silence_limit / std::chrono::milliseconds(1))};
-    if (options.threads >= 0 || std::getenv("LP_NUM_THREADS") == nullptr)
-        local.server_arguments = {"--threads", mesa_threads(options)};
+    local.server_arguments = {
+        "--threads", options.threads >= 0 ? std::to_string(options.threads) : raster_threads(options.local)};
     return LocalCluster::start(local);
 }
 
@@ -76,7 +74,6 @@ Status run_client(const ClientOptions& options) {
 
     Result<std::vector<FrameTimeline>> frames = fail("nothing was rendered");
     if (options.single) {
-        if (options.threads >= 0) setenv("LP_NUM_THREADS", mesa_threads(options).c_str(), 1);
         frames = render_single({&scene, options.renderer, std::move(*cameras), options.width, options.height,
                                 options.background, options.format},
                                clock, on_picture);
