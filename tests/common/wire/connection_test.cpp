@@ -164,7 +164,7 @@ TEST_F(ConnectionTest, OfOneMachineHasAClockOffsetNearZero) {
 // A program that listens, and what comes to it.
 class StrangerTest : public testing::Test {
   protected:
-    StrangerTest() : StrangerTest({}) {}
+    StrangerTest() : StrangerTest(Connection::Options()) {}
     explicit StrangerTest(const Connection::Options& options) {
         auto [one, two] = socket_pair(loop_);
         stranger_ = std::make_unique<RawPeer>(loop_, std::move(one));
