@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <iostream>
+#include <limits>
 
 #include "common/scene/procedural.h"
 
@@ -35,6 +36,29 @@ Status parse_colour(const std::string& text, Rgb& colour) {
               static_cast<std::uint8_t>(value)};
     return {};
 }
+
+// CLI::Range lets "nan" through.
+CLI::Validator number_within(double low, double high) {
+    return CLI::Validator(
+        [low, high](std::string& text) -> std::string {
+            double value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (error == std::errc{} && end == text.data() + text.size() && value >= low && value <= high)
+                return {};
+            return fmt::format("Value {} not in range {} to {}", text, low, high);
+        },
+        fmt::format("FLOAT in [{} - {}]", low, high));
+}
+
+// A whole number; CLI11 takes "-1" for the largest.
+const CLI::Validator kSeed(
+    [](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc{} && end == text.data() + text.size()) return {};
+        return fmt::format("{} is no whole number up to {}", text, std::numeric_limits<std::uint64_t>::max());
+    },
+    "");
 
 std::string builtin_list() {
     std::string list;
@@ -93,16 +117,14 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--path", options.path,
                    "of the camera: orbit, random (seeded, as in the paper), or a FILE with a camera a line")
         ->capture_default_str();
-    app.add_option("--seed", options.seed, "of the random path")->capture_default_str();
+    app.add_option("--seed", options.seed, "of the random path")->capture_default_str()->check(kSeed);
     app.add_option("--zoom", options.zoom, "1: the model about fills the picture")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 100.0));
+        ->check(number_within(0.01, 100));
     app.add_option("--in-flight", options.in_flight, "frames begun and not complete at a time")
         ->capture_default_str()
         ->check(CLI::Range(1, 8));
-    app.add_option("--threads", options.threads,
-                   "raster threads that Mesa adds in each process [what the cores allow]")
-        ->check(CLI::Range(0, 256));
+    add_threads_option(app, options.threads);
     app.add_option("--out", options.out, "folder for the pictures, frame_0000.png and so on [none are kept]");
     app.add_option("--format", format, "of the pictures: png (exact) or jpeg")
         ->capture_default_str()
@@ -111,7 +133,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
                    "what every machine did when: FILE.csv, or FILE.json for ui.perfetto.dev");
     app.add_option("--connect-s", options.connect_patience_s, "how long to try to reach servers and display")
         ->capture_default_str()
-        ->check(CLI::Range(0.1, 3600.0));
+        ->check(number_within(0.1, 3600));
     add_program_options(app, options.program, options.timing);
     app.footer("\nBuilt-in models, about a million triangles each unless :TRIANGLES says otherwise:\n" +
                builtin_list() + "\nExit codes: 0 done, 1 failed, 2 wrong usage.");

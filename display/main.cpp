@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     start_log("swath-display", program);
 
     const auto address = parse_address(listen);
-    if (!address) return usage_error(address.error());
+    if (!address) return usage_error({"--listen: " + address.error().message});
     options.listen = *address;
     tune_allocator();
 

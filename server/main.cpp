@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
 #include <cstdio>
-#include <cstdlib>
 
 #include "common/base/allocator.h"
 #include "common/program/program.h"
@@ -32,20 +31,17 @@ int main(int argc, char** argv) {
     app.add_option("--max-model-mib", "largest model that a client may send, in MiB [8192]")
         ->check(CLI::Range(1, 1 << 24))
         ->each([&](const std::string& v) { options.max_model_bytes = std::stoull(v) << 20; });
-    app.add_option("--threads", threads,
-                   "threads that Mesa adds for rasterising; 0: the drawing thread alone [LP_NUM_THREADS, "
-                   "else one per core]")
-        ->check(CLI::Range(0, 256));
+    add_threads_option(app, threads);
     add_program_options(app, program, options.timing);
     add_lifeline_option(app, program);
     if (const auto code = parse_options(app, argc, argv)) return *code;
     start_log("swath-server", program);
 
     const auto address = parse_address(listen);
-    if (!address) return usage_error(address.error());
+    if (!address) return usage_error({"--listen: " + address.error().message});
     options.listen = *address;
     options.cache = cache;
-    if (threads >= 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+    set_raster_threads(threads);
     tune_allocator();
 
     const SteadyClock clock;

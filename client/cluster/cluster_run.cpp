@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/scene/model_blob.h"
+#include "common/timeline/phase_timer.h"
 #include "common/wire/listener.h"
 
 namespace swath {
@@ -193,8 +194,8 @@ Status ClusterRun::run(const Director::Actions& actions) {
 }
 
 Status ClusterRun::issue(FrameNumber number) {
-    const Nanoseconds begin = clock_.now();
-    const Nanoseconds cpu_begin = clock_.thread_cpu();
+    std::vector<Span> spans;
+    PhaseTimer timer(clock_, spans);
     const View view = make_view(job_.cameras[number], job_.width, job_.height);
     const auto projected = project(job_.scene->objects, view);
     const FramePlan plan = partitioner_->partition({number, view, projected, job_.servers.size()});
@@ -235,8 +236,8 @@ Status ClusterRun::issue(FrameNumber number) {
     if (const auto status = offer(peers_.back(), assemble); !status)
         return fail_in(peers_.back().who, status.error());
     frame.missing = working + 1;
-    frame.timeline.machines[0].spans.push_back(
-        {Phase::kPartition, begin, clock_.now(), clock_.thread_cpu() - cpu_begin});
+    timer.end(Phase::kPartition);
+    frame.timeline.machines[0].spans = std::move(spans);
     director_.on_issued(number, working);
     return {};
 }

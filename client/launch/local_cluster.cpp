@@ -12,6 +12,10 @@
 
 namespace swath {
 namespace bp = boost::process;
+namespace {
+// Programs leave as soon as their lifeline closes; one that is frozen never does, and is killed.
+constexpr auto kLeavePatience = std::chrono::milliseconds(300);
+}  // namespace
 
 struct LocalCluster::Child {
     std::string name;
@@ -70,7 +74,7 @@ Result<std::unique_ptr<LocalCluster>> LocalCluster::start(const Options& options
 
 void LocalCluster::end() {
     for (const auto& child : children_) child->lifeline.pipe().close();
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    const auto deadline = std::chrono::steady_clock::now() + kLeavePatience;
     for (const auto& child : children_) {
         std::error_code ignored;
         while (child->process.running(ignored) && std::chrono::steady_clock::now() < deadline)

@@ -4,6 +4,7 @@
 
 #include "common/cull/frustum_cull.h"
 #include "common/image/pixel_codec.h"
+#include "common/timeline/phase_timer.h"
 
 namespace swath {
 
@@ -20,34 +21,26 @@ Result<std::vector<FrameTimeline>> render_single(
     for (FrameNumber number = 0; number < job.cameras.size(); ++number) {
         MachineTimeline machine;
         machine.machine = "single";
-        Nanoseconds at = clock.now();
-        Nanoseconds cpu = clock.thread_cpu();
-        const auto end_phase = [&](Phase phase) {
-            const Nanoseconds now = clock.now();
-            const Nanoseconds cpu_now = clock.thread_cpu();
-            machine.spans.push_back({phase, at, now, cpu_now - cpu});
-            at = now;
-            cpu = cpu_now;
-        };
+        PhaseTimer timer(clock, machine.spans);
         const View view = make_view(job.cameras[number], job.width, job.height);
         const auto visible = cull(job.scene->objects, all, view);
         machine[Counter::kObjects] = visible.size();
         for (const ObjectId id : visible)
             machine[Counter::kTriangles] += job.scene->objects[id].triangle_count;
-        end_phase(Phase::kCull);
+        timer.end(Phase::kCull);
         if (const auto status = (*renderer)->draw(visible, view, view.viewport()); !status)
             return tl::unexpected(status.error());
-        end_phase(Phase::kRender);
+        timer.end(Phase::kRender);
         pixels.reshape(view.viewport());
         if (const auto status = (*renderer)->read(view.viewport(), pixels); !status)
             return tl::unexpected(status.error());
-        end_phase(Phase::kPixelRead);
+        timer.end(Phase::kPixelRead);
         const Picture picture = to_picture(pixels, job.background);
-        end_phase(Phase::kAssemble);
+        timer.end(Phase::kAssemble);
         Buffer encoded;
         if (job.format != PictureFormat::kNone) {
             encoded = encode(picture, job.format);
-            end_phase(Phase::kEncode);
+            timer.end(Phase::kEncode);
         }
         FrameTimeline timeline;
         timeline.frame = number;

@@ -30,6 +30,17 @@ void add_lifeline_option(CLI::App& app, ProgramOptions& options) {
     app.add_flag("--lifeline", options.lifeline, "end when stdin closes (for programs that start this one)");
 }
 
+void add_threads_option(CLI::App& app, int& threads) {
+    app.add_option("--threads", threads,
+                   "raster threads that Mesa adds to the drawing one, per process [what the cores allow]")
+        ->envname("LP_NUM_THREADS")
+        ->check(CLI::Range(0, 256));
+}
+
+void set_raster_threads(int threads) {
+    if (threads >= 0) ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+}
+
 std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
     try {
         app.parse(argc, argv);

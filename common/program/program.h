@@ -21,6 +21,11 @@ struct ProgramOptions {
 void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& timing);
 void add_lifeline_option(CLI::App& app, ProgramOptions& options);  // for programs that wait for others
 
+// --threads, also from the environment's LP_NUM_THREADS; -1: not given. Then set_raster_threads, before the
+// first context: the threads that llvmpipe adds to the one that draws (-1: its own choice, one a core).
+void add_threads_option(CLI::App& app, int& threads);
+void set_raster_threads(int threads);
+
 // Parses; the exit code if the program is to end now (help, or a wrong flag: one line on stderr and
 // kExitUsage).
 std::optional<int> parse_options(CLI::App& app, int argc, char** argv);

@@ -87,6 +87,7 @@ void Connection::write_queued() {
                           if (!self->open_) return;
                           if (error) {
                               // Its end is closed. What it said last may still lie unread, and says why.
+                              self->cannot_send_ = true;
                               if (self->closing_) self->end(self->close_reason_);
                               return;
                           }
@@ -244,14 +245,14 @@ void Connection::hang_up() {
 void Connection::fail_with(const Error& error) {
     if (!open_ || closing_) return;
     close_reason_ = tl::unexpected(error);
-    if (!offer(Failed{error.message})) return end(close_reason_);
+    if (cannot_send_ || !offer(Failed{error.message})) return end(close_reason_);
     closing_ = true;
 }
 
 void Connection::finish() {
     if (!open_ || closing_) return;
     handlers_.on_closed = nullptr;
-    if (!offer(Bye{})) return close();
+    if (cannot_send_ || !offer(Bye{})) return close();
     closing_ = true;
 }
 

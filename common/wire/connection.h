@@ -94,9 +94,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
     bool open_ = true;
     bool introduced_ = false;
     WireLimits peer_limits_ = kHelloLimits;
-    bool closing_ = false;  // the queue is being flushed; what comes is thrown away
-    bool hung_up_ = false;  // it is flushed
-    bool drained_ = false;  // the peer has closed its end too
+    bool closing_ = false;      // the queue is being flushed; what comes is thrown away
+    bool cannot_send_ = false;  // the peer has closed its end; only reading goes on
+    bool hung_up_ = false;      // it is flushed
+    bool drained_ = false;      // the peer has closed its end too
     Status close_reason_;
 
     std::array<std::uint8_t, kPrefixBytes> prefix_{};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/timeline/phase_timer.h"
 
 namespace swath {
 namespace asio = boost::asio;
@@ -95,12 +96,10 @@ Status DisplaySession::on_assemble(const AssembleFrame& task) {
         frame.picture = std::move(pool_.back());
         pool_.pop_back();
     }
-    const Nanoseconds begin = frame.busy_until = clock_.now();
-    const Nanoseconds cpu_begin = clock_.thread_cpu();
+    PhaseTimer timer(clock_, frame.report.spans);
     fill(frame.picture, task.width, task.height, task.background);
-    add_span(frame, Phase::kAssemble, begin, cpu_begin);
-    for (auto it = early_.begin(); it != early_.end() && it->first.first <= task.frame; it = early_.erase(it))
-        frame.tiles.emplace(it->first.second, std::move(it->second));
+    timer.end(Phase::kAssemble);
+
     return run(*actions);
 }
 
@@ -109,11 +108,7 @@ Status DisplaySession::from_server(ServerId from, const Message& message, Buffer
     if (pixels == nullptr) return fail("{} is not expected from a server", name(message));
     const auto actions = assembly_->on_tile(pixels->frame, from);
     if (!actions) return tl::unexpected(actions.error());
-    Tile tile{pixels->sizes, std::move(body)};
-    if (const auto open = frames_.find(pixels->frame); open != frames_.end())
-        open->second.tiles.emplace(from, std::move(tile));
-    else
-        early_.emplace(std::pair(pixels->frame, from), std::move(tile));
+    pieces_.emplace(std::pair(pixels->frame, from), Piece{pixels->sizes, std::move(body)});
     return run(*actions);
 }
 
@@ -132,19 +127,9 @@ Status DisplaySession::run(const Assembly::Actions& actions) {
     return {};
 }
 
-// The span since `begin`, and the wait since the span before it.
-void DisplaySession::add_span(OpenFrame& frame, Phase phase, Nanoseconds begin, Nanoseconds cpu_begin) {
-    const Nanoseconds now = clock_.now();
-    if (begin > frame.busy_until)
-        frame.report.spans.push_back({Phase::kWait, frame.busy_until, begin, Nanoseconds(0)});
-    frame.report.spans.push_back({phase, begin, now, clock_.thread_cpu() - cpu_begin});
-    frame.busy_until = now;
-}
-
 Status DisplaySession::merge(OpenFrame& frame, ServerId from) {
-    const Nanoseconds begin = clock_.now();
-    const Nanoseconds cpu_begin = clock_.thread_cpu();
-    const auto tile = frame.tiles.extract(from);
+    PhaseTimer timer(clock_, frame.report.spans);
+    const auto tile = pieces_.extract({frame.task.frame, from});
     CHECK(tile.empty() == false);
     const Region* region = nullptr;
     for (const Exchange& e : frame.task.tiles)
@@ -153,7 +138,7 @@ Status DisplaySession::merge(OpenFrame& frame, ServerId from) {
     const auto status =
         assemble_tile(tile.mapped().body.bytes(), tile.mapped().sizes, *region, frame.picture);
     if (!status) return fail("garbled tile from server {}: {}", index(from), status.error().message);
-    add_span(frame, Phase::kAssemble, begin, cpu_begin);
+    timer.end(Phase::kAssemble);
     return {};
 }
 
@@ -166,14 +151,13 @@ void DisplaySession::complete(FrameNumber number) {
         return;
     }
     encoder_->post([self = shared_from_this(), frame] {
-        const Nanoseconds begin = self->clock_.now();
-        const Nanoseconds cpu_begin = self->clock_.thread_cpu();
+        PhaseTimer timer(self->clock_, frame->report.spans);
         auto encoded = std::make_shared<Result<Buffer>>(fail("not enough memory to encode a picture"));
         try {
             *encoded = encode(frame->picture, self->setup_.format);
         } catch (const std::bad_alloc&) {  // the error stays
         }
-        self->add_span(*frame, Phase::kEncode, begin, cpu_begin);
+        timer.end(Phase::kEncode);
         asio::post(self->io_, [self, frame, encoded] {
             if (self->stopped_) return;
             if (!*encoded) return self->give_up(encoded->error());

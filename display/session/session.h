@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/worker_thread.h"
+#include "common/wire/pieces.h"
 #include "common/wire/session_host.h"
 #include "display/assemble/assembly.h"
 
@@ -24,16 +25,11 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     void stop() override;
 
   private:
-    struct Tile {
-        BodySizes sizes;
-        Buffer body;
-    };
     struct OpenFrame {
         AssembleFrame task;
         Picture picture;
-        std::map<ServerId, Tile> tiles;
+
         DisplayReport report;
-        Nanoseconds busy_until{0};
     };
 
     Status from_client(const Message& message);
@@ -44,7 +40,6 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     void complete(FrameNumber number);
     void report(DisplayReport&& report, Buffer encoded);
     void give_up(const Error& error);
-    void add_span(OpenFrame& frame, Phase phase, Nanoseconds begin, Nanoseconds cpu_begin);
 
     boost::asio::io_context& io_;
     const Clock& clock_;
@@ -54,7 +49,7 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     std::vector<std::shared_ptr<Connection>> servers_;  // by ServerId; null until connected
     std::unique_ptr<Assembly> assembly_;
     std::map<FrameNumber, OpenFrame> frames_;
-    std::map<std::pair<FrameNumber, ServerId>, Tile> early_;  // tiles of frames without a task
+    Pieces pieces_;
     std::vector<Picture> pool_;
     std::unique_ptr<WorkerThread> encoder_;
 };

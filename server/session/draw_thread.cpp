@@ -3,6 +3,7 @@
 #include <new>
 
 #include "common/cull/frustum_cull.h"
+#include "common/timeline/phase_timer.h"
 
 namespace swath {
 
@@ -52,24 +53,15 @@ void DrawThread::draw(DrawJob job, std::function<void(Drawn)> done) {
 
 Drawn DrawThread::draw_now(DrawJob job) {
     Drawn out;
-    Nanoseconds at = clock_.now();
-    Nanoseconds cpu = clock_.thread_cpu();
-    const auto end_phase = [&](Phase phase) {
-        const Nanoseconds now = clock_.now();
-        const Nanoseconds cpu_now = clock_.thread_cpu();
-        out.spans.push_back({phase, at, now, cpu_now - cpu});
-        at = now;
-        cpu = cpu_now;
-    };
-
+    PhaseTimer timer(clock_, out.spans);
     const std::vector<ObjectId> visible =
         job.content.empty() ? std::vector<ObjectId>{} : cull(scene_.objects, job.group, job.view);
     out.objects = visible.size();
     for (const ObjectId id : visible) out.triangles += scene_.objects[id].triangle_count;
-    end_phase(Phase::kCull);
+    timer.end(Phase::kCull);
 
     if (!job.content.empty()) out.status = renderer_->draw(visible, job.view, job.content);
-    end_phase(Phase::kRender);
+    timer.end(Phase::kRender);
 
     // The frame covers what was drawn and what will be received; the latter starts as background.
     Rect cover = job.content;
@@ -78,7 +70,7 @@ Drawn DrawThread::draw_now(DrawJob job) {
     for (const Rect& r : job.final_region)
         for (const Rect& rest : subtract(r, job.content)) job.pixels.clear(rest);
     if (out.status && !job.content.empty()) out.status = renderer_->read(job.content, job.pixels);
-    end_phase(Phase::kPixelRead);
+    timer.end(Phase::kPixelRead);
     out.pixels = std::move(job.pixels);
     return out;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/timeline/phase_timer.h"
 #include "common/wire/listener.h"
 
 namespace swath {
@@ -266,12 +267,10 @@ Status ServerSession::on_render_frame(RenderFrame&& task) {
 
     OpenFrame& frame = frames_[task.frame];
     frame.report.frame = task.frame;
-    frame.busy_until = clock_.now();
+    const Nanoseconds now = clock_.now();
+    frame.report.spans.push_back({Phase::kWait, now, now, Nanoseconds(0)});  // until drawing begins
     frame.task = std::move(task);
-    // Pieces that came before the task are keyed by frame.
-    for (auto it = early_.begin(); it != early_.end() && it->first.first <= frame.task.frame;
-         it = early_.erase(it))
-        frame.pieces.emplace(it->first.second, std::move(it->second));
+
     return run(*actions);
 }
 
@@ -280,11 +279,7 @@ Status ServerSession::from_peer(ServerId from, Message&& message, Buffer&& body)
     if (pixels == nullptr) return fail("{} is not expected from a server", name(message));
     auto actions = swap_->on_swath(pixels->frame, from);
     if (!actions) return tl::unexpected(actions.error());
-    Piece piece{pixels->sizes, std::move(body)};
-    if (const auto open = frames_.find(pixels->frame); open != frames_.end())
-        open->second.pieces.emplace(from, std::move(piece));
-    else
-        early_.emplace(std::pair(pixels->frame, from), std::move(piece));
+    pieces_.emplace(std::pair(pixels->frame, from), Piece{pixels->sizes, std::move(body)});
     return run(*actions);
 }
 
@@ -333,45 +328,15 @@ Status ServerSession::on_drawn(FrameNumber number, Drawn& drawn) {
     OpenFrame& frame = frames_.at(number);
     frame.pixels = std::move(drawn.pixels);
     ServerReport& report = frame.report;
-    report.spans = std::move(drawn.spans);
-    // Before drawing it waited for its turn behind the frame before.
-    report.spans.insert(report.spans.begin(),
-                        {Phase::kWait, frame.busy_until, report.spans.front().begin, Nanoseconds(0)});
+    report.spans.front().end = drawn.spans.front().begin;
+    report.spans.insert(report.spans.end(), drawn.spans.begin(), drawn.spans.end());
     report[Counter::kObjects] = drawn.objects;
     report[Counter::kTriangles] = drawn.triangles;
-    frame.busy_until = report.spans.back().end;
+
     return run(swap_->on_drawn(number));
 }
 
 namespace {
-
-// Adds a span that began at construction, and the wait since the frame's last span.
-class PhaseTimer {
-  public:
-    PhaseTimer(const Clock& clock, ServerReport& report, Nanoseconds& busy_until)
-        : clock_(clock),
-          report_(report),
-          busy_until_(busy_until),
-          begin_(clock.now()),
-          cpu_(clock.thread_cpu()) {
-        if (begin_ > busy_until_)
-            report_.spans.push_back({Phase::kWait, busy_until_, begin_, Nanoseconds(0)});
-    }
-    void end(Phase phase) {
-        const Nanoseconds now = clock_.now();
-        const Nanoseconds cpu_now = clock_.thread_cpu();
-        report_.spans.push_back({phase, begin_, now, cpu_now - cpu_});
-        busy_until_ = begin_ = now;
-        cpu_ = cpu_now;
-    }
-
-  private:
-    const Clock& clock_;
-    ServerReport& report_;
-    Nanoseconds& busy_until_;
-    Nanoseconds begin_;
-    Nanoseconds cpu_;
-};
 
 const Region& region_of(const std::vector<Exchange>& exchanges, ServerId server) {
     for (const Exchange& e : exchanges)
@@ -383,7 +348,7 @@ const Region& region_of(const std::vector<Exchange>& exchanges, ServerId server)
 }  // namespace
 
 Status ServerSession::send_swath(OpenFrame& frame, ServerId to) {
-    PhaseTimer timer(clock_, frame.report, frame.busy_until);
+    PhaseTimer timer(clock_, frame.report.spans);
     Buffer body;
     const BodySizes sizes = encode_swath(frame.pixels, region_of(frame.task.outgoing, to), body);
     const std::size_t bytes = body.size();
@@ -398,8 +363,8 @@ Status ServerSession::send_swath(OpenFrame& frame, ServerId to) {
 }
 
 Status ServerSession::composite(OpenFrame& frame, ServerId from) {
-    PhaseTimer timer(clock_, frame.report, frame.busy_until);
-    const auto piece = frame.pieces.extract(from);
+    PhaseTimer timer(clock_, frame.report.spans);
+    const auto piece = pieces_.extract({frame.task.frame, from});
     CHECK(piece.empty() == false);
     const auto status =
         composite_swath(piece.mapped().body.bytes(), piece.mapped().sizes,
@@ -411,7 +376,7 @@ Status ServerSession::composite(OpenFrame& frame, ServerId from) {
 }
 
 Status ServerSession::send_tile(OpenFrame& frame) {
-    PhaseTimer timer(clock_, frame.report, frame.busy_until);
+    PhaseTimer timer(clock_, frame.report.spans);
     Buffer body;
     const BodySizes sizes = encode_tile(frame.pixels, frame.task.final_region, body);
     const std::size_t bytes = body.size();

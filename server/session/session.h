@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/wire/connection.h"
+#include "common/wire/pieces.h"
 #include "server/session/draw_thread.h"
 #include "server/session/model_store.h"
 #include "server/session/server.h"
@@ -30,16 +31,11 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     void stop() override;
 
   private:
-    struct Piece {
-        BodySizes sizes;
-        Buffer body;
-    };
     struct OpenFrame {
         RenderFrame task;
         PixelFrame pixels;
-        std::map<ServerId, Piece> pieces;
+
         ServerReport report;
-        Nanoseconds busy_until{0};  // the end of its last span
     };
 
     Status from_client(Message&& message, Buffer&& body);
@@ -88,7 +84,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     std::shared_ptr<Connection> display_;
     std::unique_ptr<FrameSwap> swap_;
     std::map<FrameNumber, OpenFrame> frames_;
-    std::map<std::pair<FrameNumber, ServerId>, Piece> early_;  // pieces of frames without a task
+    Pieces pieces_;
     std::vector<PixelFrame> pool_;
 };
 

@@ -7,20 +7,23 @@ namespace swath::bench {
 // Real processes, no pictures kept. LP_NUM_THREADS=0: every process draws with one thread, so that two
 // servers have the two cores that one process with more threads would have. Runs alternate, ratios are taken
 // pair by pair.
-Status bench_cluster(Figures& figures) {
-    const auto file = dragon();
-    if (!file) return tl::unexpected(file.error());
+Status bench_cluster(Figures& figures, const Effort& effort) {
     ::setenv("LP_NUM_THREADS", "0", 1);
     const auto render = [&](const std::vector<std::string>& how) {
-        std::vector<std::string> command{client_program(), *file,      "--quiet", "--size",
-                                         "1280x960",       "--frames", "60"};
+        std::vector<std::string> command{client_program(),
+                                         effort.model,
+                                         "--quiet",
+                                         "--size",
+                                         "1280x960",
+                                         "--frames",
+                                         std::to_string(effort.frames)};
         command.insert(command.end(), how.begin(), how.end());
         return run_program(command);
     };
     std::vector<double> overhead;
     std::vector<double> speedup;
     std::vector<double> single_fps;
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i < effort.repetitions; ++i) {
         const Finished single = render({"--single"});
         const Finished one = render({"--local", "1"});
         const Finished two = render({"--local", "2"});

@@ -34,8 +34,16 @@ class Figures {
 
 double median(std::vector<double> samples);
 
-// The Dragon: ../shared/models, else models/ as script/fetch-models leaves it.
-Result<std::string> dragon();
+// What to render and how often: the Dragon for figures; a small built-in model, once, to see that a benchmark
+// runs.
+struct Effort {
+    std::string model;
+    int repetitions = 1;
+    std::size_t frames = 2;
+};
+Result<Effort>
+full_effort();  // the Dragon from ../shared/models, else models/ as script/fetch-models leaves it
+Effort smoke_effort();
 
 // A program run to its end.
 struct Finished {
@@ -49,9 +57,9 @@ Finished run_program(const std::vector<std::string>& command);
 std::string client_program();  // swath-client beside this program
 
 // One benchmark a function; errors are what is missing (a model, a program).
-Status bench_cluster(Figures& figures);
-Status bench_swap(Figures& figures);
-Status bench_load(Figures& figures);
-Status bench_peers(Figures& figures);
+Status bench_cluster(Figures& figures, const Effort& effort);
+Status bench_swap(Figures& figures, const Effort& effort);
+Status bench_load(Figures& figures, const Effort& effort);
+Status bench_peers(Figures& figures, const Effort& effort);
 
 }  // namespace swath::bench

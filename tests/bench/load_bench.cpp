@@ -7,14 +7,12 @@
 namespace swath::bench {
 
 // File to objects, as a server does it; the file is in the page cache after the first time.
-Status bench_load(Figures& figures) {
-    const auto file = dragon();
-    if (!file) return tl::unexpected(file.error());
+Status bench_load(Figures& figures, const Effort& effort) {
     std::vector<double> total;
     std::vector<double> reading;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i <= effort.repetitions; ++i) {
         const auto begin = std::chrono::steady_clock::now();
-        auto mesh = load_model(*file);
+        auto mesh = load_model(effort.model);
         if (!mesh) return tl::unexpected(mesh.error());
         const auto read = std::chrono::steady_clock::now();
         const ObjectSet scene = build_objects(std::move(*mesh), {});

@@ -11,12 +11,14 @@
 
 int main(int argc, char** argv) {
     using namespace swath;
-    const std::map<std::string, Status (*)(bench::Figures&)> benchmarks{{"cluster", bench::bench_cluster},
-                                                                        {"load", bench::bench_load},
-                                                                        {"peers", bench::bench_peers},
-                                                                        {"swap", bench::bench_swap}};
+    const std::map<std::string, Status (*)(bench::Figures&, const bench::Effort&)> benchmarks{
+        {"cluster", bench::bench_cluster},
+        {"load", bench::bench_load},
+        {"peers", bench::bench_peers},
+        {"swap", bench::bench_swap}};
     std::string name;
     std::string json;
+    bool smoke = false;
     CLI::App app{
         "swath-bench: every figure that docs/benchmarks.md names, as ratios within one run where that is "
         "possible.\n"
@@ -28,12 +30,16 @@ int main(int argc, char** argv) {
         ->required()
         ->check(CLI::IsMember({"cluster", "load", "peers", "swap"}));
     app.add_option("--json", json, "write {\"figures\": {name: number}} to this file");
+    app.add_flag("--smoke", smoke,
+                 "a small built-in model, once: to see that it runs; the figures mean nothing");
     if (const auto code = parse_options(app, argc, argv)) return *code;
     tune_allocator();
     spdlog::set_level(spdlog::level::warn);
 
+    const auto effort = smoke ? bench::smoke_effort() : bench::full_effort();
+    if (!effort) return run_error(effort.error());
     bench::Figures figures;
-    if (const auto status = benchmarks.at(name)(figures); !status) return run_error(status.error());
+    if (const auto status = benchmarks.at(name)(figures, *effort); !status) return run_error(status.error());
     std::cout << figures.to_text(name);
     if (!json.empty()) {
         const std::string text = figures.to_json();

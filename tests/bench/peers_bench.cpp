@@ -142,8 +142,10 @@ double process_cpu_s() {
 // Swap, composite and gather of `peer.servers` server processes and a display on one core over TCP: all their
 // CPU time and the client's, less what the timeline says went into partitioning, culling, drawing and reading
 // back.
-Status bench_swap_stage(Figures& figures, const Peer& peer, const ObjectSet& scene, const Mesh& mesh) {
-    constexpr std::size_t kPasses = 12;  // the first fills the caches
+Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer, const ObjectSet& scene,
+                        const Mesh& mesh) {
+    const std::size_t passes =
+        2 + 2 * static_cast<std::size_t>(effort.repetitions);  // the first fills the caches
     std::vector<std::unique_ptr<Child>> servers;
     for (std::size_t i = 0; i < peer.servers; ++i)
         servers.push_back(std::make_unique<Child>([](boost::asio::io_context& io, const Clock& clock) {
@@ -167,7 +169,7 @@ Status bench_swap_stage(Figures& figures, const Peer& peer, const ObjectSet& sce
     job.scene = &scene;
     job.blob = write_blob(mesh);
     const auto orbit = peers_orbit(scene.bounds);
-    for (std::size_t pass = 0; pass < kPasses; ++pass)
+    for (std::size_t pass = 0; pass < passes; ++pass)
         job.cameras.insert(job.cameras.end(), orbit.begin(), orbit.end());
     job.width = kWidth;
     job.height = kHeight;
@@ -192,7 +194,7 @@ Status bench_swap_stage(Figures& figures, const Peer& peer, const ObjectSet& sce
 
     std::vector<double> cpu_ns;
     std::vector<double> kib;
-    for (std::size_t pass = 2; pass < kPasses; ++pass) {
+    for (std::size_t pass = 2; pass < passes; ++pass) {
         double other = 0;
         double bytes = 0;
         for (std::size_t f = pass * kViews; f < (pass + 1) * kViews; ++f)
@@ -237,7 +239,7 @@ class OneCore {
 };
 
 // Whole frames of real processes.
-Status bench_frames(Figures& figures, const std::string& model, const Box& bounds) {
+Status bench_frames(Figures& figures, const Effort& effort, const Box& bounds) {
     const auto folder = std::filesystem::temp_directory_path() / fmt::format("swath-bench-{}", ::getpid());
     std::filesystem::create_directories(folder);
     const std::string path = (folder / "orbit.txt").string();
@@ -247,20 +249,20 @@ Status bench_frames(Figures& figures, const std::string& model, const Box& bound
             file << fmt::format("{} {} {} {} {} {} 0 1 0 30\n", c.eye.x, c.eye.y, c.eye.z, c.target.x,
                                 c.target.y, c.target.z);
     }
-    const auto render = [&](std::size_t frames) {
-        return run_program({client_program(), model, "--quiet", "--local", "2", "--path", path, "--frames",
-                            std::to_string(frames)});
+    const auto render = [&](std::size_t count) {
+        return run_program({client_program(), effort.model, "--quiet", "--local", "2", "--path", path,
+                            "--frames", std::to_string(count)});
     };
-    constexpr std::size_t kFrames = 54;
+    const auto frames = static_cast<double>(effort.frames);
     std::vector<double> fps;
     std::vector<double> cpu_ms;
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i < effort.repetitions; ++i) {
         const Finished start = render(1);
-        const Finished run = render(1 + kFrames);
+        const Finished run = render(1 + effort.frames);
         if (start.exit_code != 0 || run.exit_code != 0)
             return fail("swath-client failed with exit code {}", run.exit_code);
         fps.push_back(run.frames_per_s());
-        cpu_ms.push_back((run.cpu_s - start.cpu_s) / kFrames * 1000);
+        cpu_ms.push_back((run.cpu_s - start.cpu_s) / frames * 1000);
     }
     std::filesystem::remove_all(folder);
     figures.add("fps_n2", fps, "1/s",
@@ -272,24 +274,23 @@ Status bench_frames(Figures& figures, const std::string& model, const Box& bound
 
 }  // namespace
 
-Status bench_peers(Figures& figures) {
-    const auto file = dragon();
-    if (!file) return tl::unexpected(file.error());
+Status bench_peers(Figures& figures, const Effort& effort) {
     ::setenv("LP_NUM_THREADS", "0", 1);
-    const auto mesh = load_model(*file);
+    const auto mesh = load_model(effort.model);
     if (!mesh) return tl::unexpected(mesh.error());
     const ObjectSet scene = build_objects(*mesh, {});
     {
         const OneCore one_core;
         for (const Peer& peer : kPeers)
-            if (const auto status = bench_swap_stage(figures, peer, scene, *mesh); !status) return status;
+            if (const auto status = bench_swap_stage(figures, effort, peer, scene, *mesh); !status)
+                return status;
     }
     figures.note(
         "IceT 2.2.0: 2.6, 3.8, 6.2 ns and 2,934, 4,018, 5,809 KiB on 2, 4, 8 ranks (direct, TCP, one core).");
     figures.note(
         "CPU a frame, one process: OpenSceneGraph 3.6.5 192-201 ms, 8.7 frames/s; VTK 9.1 242-245 ms, 7.25; "
         "ParaView 5.11 265-302 ms, 6.3.");
-    return bench_frames(figures, *file, scene.bounds);
+    return bench_frames(figures, effort, scene.bounds);
 }
 
 }  // namespace swath::bench

@@ -45,14 +45,15 @@ Planes random_planes(std::size_t n, unsigned seed) {
     return planes;
 }
 
-void bench_composite(Figures& figures, std::size_t n, const std::string& name, const std::string& bar) {
+void bench_composite(Figures& figures, int repetitions, std::size_t n, const std::string& name,
+                     const std::string& bar) {
     const Planes theirs = random_planes(n, 1);
     const Planes start = random_planes(n, 2);
     Planes ours = start;
     Planes scratch(n);
     std::vector<double> rate;
     std::vector<double> of_bound;
-    for (int i = 0; i < 7; ++i) {
+    for (int i = 0; i < repetitions; ++i) {
         ours = start;
         const double composite = seconds([&] {
             composite_pixels(n, theirs.colour.data(), theirs.depth.data(), theirs.id.data(),
@@ -76,10 +77,8 @@ void bench_composite(Figures& figures, std::size_t n, const std::string& name, c
 
 }  // namespace
 
-Status bench_swap(Figures& figures) {
-    const auto file = dragon();
-    if (!file) return tl::unexpected(file.error());
-    auto mesh = load_model(*file);
+Status bench_swap(Figures& figures, const Effort& effort) {
+    auto mesh = load_model(effort.model);
     if (!mesh) return tl::unexpected(mesh.error());
     const ObjectSet scene = build_objects(std::move(*mesh), {});
     const auto cameras = make_path("orbit", scene.bounds, {8, 1, 4.0f / 3.0f, 1.0f});
@@ -118,9 +117,9 @@ Status bench_swap(Figures& figures) {
     figures.add("bytes_per_active_pixel", bytes_a_pixel, "bytes",
                 "8, spans, ids and framing: the Dragon on 8 servers, by frame");
     figures.add("id_bytes_per_active_pixel", ids_a_pixel, "bytes", "the ids' part of it");
-    bench_composite(figures, 1280 * 960, "composite_gpixel_per_s",
+    bench_composite(figures, effort.repetitions, 1280 * 960, "composite_gpixel_per_s",
                     "at least 0.5: a whole screen, larger than the caches near the core");
-    bench_composite(figures, 20'000, "composite_swath_gpixel_per_s",
+    bench_composite(figures, effort.repetitions, 20'000, "composite_swath_gpixel_per_s",
                     "a swath as the hybrid's servers swap them");
     return {};
 }

@@ -1,0 +1,157 @@
+// Whatever the algorithm and the number of servers, the pictures are those of a single process, byte for
+// byte.
+#include <fmt/format.h>
+
+#include "tests/e2e/programs.h"
+
+namespace swath::test {
+namespace {
+
+struct Scene {
+    std::string name;
+    Arguments arguments;
+    std::vector<int> servers;
+    std::string cameras = {};  // of a camera file; empty: --path is in `arguments` or an orbit
+};
+void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
+
+const std::vector<int> kAll{1, 2, 3, 4, 5, 6, 7, 8, 9, 16};
+
+const std::vector<Scene> kScenes{
+    {"TownOfOddSize",
+     {"builtin:town:30000", "--size", "1279x961", "--frames", "2", "--background", "ff8040"},
+     kAll},
+    {"DeepSpheres",
+     {"builtin:spheres:40000", "--size", "320x240", "--frames", "4", "--path", "random", "--seed", "7"},
+     kAll},
+    {"KnotOnThreeLines", {"builtin:knot:60000", "--size", "641x3", "--frames", "4"}, kAll},
+    {"TownOnThreeLines",
+     {"builtin:town:20000", "--size", "641x3", "--frames", "4", "--path", "random", "--seed", "3"},
+     {2, 5, 16}},
+    {"SmallTown",
+     {"builtin:town:20000", "--size", "320x240", "--frames", "6", "--path", "random", "--seed", "12345"},
+     {3, 6, 7, 16}},
+    {"SpheresOfOddSize", {"builtin:spheres:40000", "--size", "1279x961", "--frames", "2"}, {3, 8}},
+    {"KnotBeyondTheScreen",
+     {"builtin:knot:40000", "--size", "1279x961", "--frames", "2", "--zoom", "3", "--background", "ffffff"},
+     {2, 4, 9}},
+    {"KnotOfFewPixels",
+     {"builtin:knot:20000", "--size", "320x240", "--frames", "3", "--zoom", "0.02", "--background", "000000"},
+     {2, 5, 9}},
+    {"OnePixel", {"builtin:knot:20000", "--size", "1x1", "--frames", "2"}, {1, 3, 16}},
+    {"OneFrameInFlight",
+     {"builtin:spheres:20000", "--size", "320x240", "--frames", "6", "--in-flight", "1"},
+     {1, 3, 4}},
+    {"EightFramesInFlight",
+     {"builtin:spheres:20000", "--size", "320x240", "--frames", "12", "--in-flight", "8"},
+     {1, 3, 4}},
+    {"AllInOneObject",
+     {"builtin:knot:20000", "--octree-depth", "0", "--size", "320x240", "--frames", "2"},
+     {1, 2, 4, 16}},
+    {"FewerObjectsThanServers",
+     {"builtin:town:20000", "--octree-depth", "1", "--size", "320x240", "--frames", "2"},
+     {7, 9, 16}},
+    {"FromInsideTheKnot",
+     {"builtin:knot:60000", "--size", "320x240"},
+     {1, 2, 3, 5, 8},
+     "0 0 0  1 0 0  0 0 1  70   # the middle of the ring\n"
+     "1.46 0 0  0 0 0  0 0 1  100   # within the tube\n"
+     "0.1 0 3  0 0 0  0 1 0  40\n"},
+    {"FromInsideTheSpheres",
+     {"builtin:spheres:40000", "--size", "320x240"},
+     {2, 4, 7},
+     "0 0 0  0 0 1  0 1 0  90\n0 0 0  1 0 0  0 1 0  90\n"},
+    {"DrawnWithEgl",
+     {"builtin:town:20000", "--size", "641x480", "--frames", "2", "--renderer", "egl"},
+     {1, 2, 5}},
+};
+
+class ClusterPictures : public EndToEnd, public testing::WithParamInterface<Scene> {
+  protected:
+    void compare(const std::string& algorithm) {
+        const Scene& scene = GetParam();
+        Arguments arguments = scene.arguments;
+        if (!scene.cameras.empty())
+            arguments = arguments + Arguments{"--path", files_.write("cameras.txt", scene.cameras)};
+        const std::string expected = render(arguments + Arguments{"--single"});
+        if (scene.name != "OnePixel") expect_not_only({16, 18, 24}, expected);
+        for (const int servers : scene.servers) {
+            SCOPED_TRACE(fmt::format("{} servers", servers));
+            expect_same_pictures(expected, render(arguments + Arguments{"--local", std::to_string(servers),
+                                                                        "--algorithm", algorithm}));
+        }
+    }
+};
+
+TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithTheHybridAlgorithm) { compare("hybrid"); }
+TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithSortLast) { compare("sort-last"); }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ClusterPictures, testing::ValuesIn(kScenes),
+                         [](const auto& scene) { return scene.param.name; });
+
+class Pictures : public EndToEnd {};
+
+TEST_F(Pictures, AreBackgroundWhenTheCameraLooksAway) {
+    const Arguments arguments{"builtin:knot:20000",
+                              "--size",
+                              "320x240",
+                              "--background",
+                              "204060",
+                              "--path",
+                              files_.write("away.txt", "0 0 9 0 0 19 0 1 0 50\n")};
+    const std::string expected = render(arguments + Arguments{"--single"});
+    expect_only({0x20, 0x40, 0x60}, expected);
+    for (const char* algorithm : {"hybrid", "sort-last"})
+        for (const char* servers : {"1", "4"})
+            expect_same_pictures(expected,
+                                 render(arguments + Arguments{"--local", servers, "--algorithm", algorithm}));
+}
+
+TEST_F(Pictures, AreTheSameFromOsmesaAndEgl) {
+    const Arguments arguments{"builtin:town:20000", "--size", "641x480", "--frames", "2"};
+    const std::string expected = render(arguments + Arguments{"--single", "--renderer", "osmesa"});
+    expect_same_pictures(expected, render(arguments + Arguments{"--single", "--renderer", "egl"}));
+    expect_same_pictures(expected, render(arguments + Arguments{"--local", "3", "--renderer", "egl"}));
+}
+
+TEST_F(Pictures, DoNotDependOnHowFinelyAModelIsCut) {
+    const Arguments arguments{"builtin:knot:40000", "--size", "641x480", "--frames", "2"};
+    const std::string expected = render(arguments + Arguments{"--single"});
+    for (const Arguments& cut :
+         {Arguments{"--objects", "1"}, Arguments{"--objects", "60"}, Arguments{"--objects", "20000"},
+          Arguments{"--octree-depth", "2"}, Arguments{"--octree-depth", "10"}}) {
+        SCOPED_TRACE(fmt::format("{} {}", cut[0], cut[1]));
+        expect_same_pictures(expected, render(arguments + cut + Arguments{"--single"}));
+        expect_same_pictures(expected, render(arguments + cut + Arguments{"--local", "3"}));
+    }
+}
+
+TEST_F(Pictures, AreTheSameInEveryRun) {
+    const Arguments arguments{"builtin:town:30000",
+                              "--local",
+                              "4",
+                              "--size",
+                              "641x480",
+                              "--frames",
+                              "6",
+                              "--path",
+                              "random",
+                              "--seed",
+                              "99"};
+    const std::string first = render(arguments);
+    for (int run = 0; run < 3; ++run) expect_same_pictures(first, render(arguments));
+    for (const char* in_flight : {"1", "8"})
+        expect_same_pictures(first, render(arguments + Arguments{"--in-flight", in_flight}));
+}
+
+TEST_F(Pictures, DependOnTheSeedOfARandomPath) {
+    const Arguments arguments{"builtin:knot:20000", "--single", "--size", "64x48",
+                              "--frames",           "3",        "--path", "random"};
+    const std::string one = render(arguments + Arguments{"--seed", "1"});
+    const std::string two = render(arguments + Arguments{"--seed", "2"});
+    for (const std::string& name : file_names(one))
+        EXPECT_NE(contents(one + "/" + name), contents(two + "/" + name));
+}
+
+}  // namespace
+}  // namespace swath::test

@@ -1,0 +1,87 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/models.h"
+#include "tests/support/process.h"
+
+namespace swath::test {
+
+// Sanitizers slow programs down; every limit of ours is multiplied by this.
+inline constexpr int kSlowdown = SWATH_E2E_SLOWDOWN;
+inline constexpr std::chrono::milliseconds kPatience = kSlowdown * std::chrono::seconds(60);
+
+using Arguments = std::vector<std::string>;
+Arguments operator+(Arguments left, const Arguments& right);
+
+// A folder for the test's files, the programs, and at the end the check that none of them is left.
+class EndToEnd : public testing::Test {
+  protected:
+    EndToEnd();
+    ~EndToEnd() override;
+    void TearDown() override;
+
+    // Starts "swath-client", "swath-server" or "swath-display". It draws without extra threads, keeps its
+    // cache in the test's folder, and under a sanitizer waits longer for silent peers unless the arguments
+    // say how long.
+    std::unique_ptr<Process> start(const std::string& program, Arguments arguments,
+                                   const std::filesystem::path& folder = {}) const;
+    Finished run(const std::string& program, const Arguments& arguments,
+                 std::chrono::milliseconds limit = kPatience) const;
+    Finished client(const Arguments& arguments) const { return run("swath-client", arguments); }
+    // The same, with exit code 0; returns the folder of the pictures, a new one.
+    std::string render(const Arguments& arguments);
+
+    TemporaryFolder files_;
+
+  private:
+    int renders_ = 0;
+};
+
+// A swath-display and swath-servers as somebody starts them by hand, each on a free port. Server i keeps its
+// cache in `folder`/cache_i and runs in `folder`. Ends with the object.
+class RemoteCluster {
+  public:
+    using Start = std::function<std::unique_ptr<Process>(const std::string&, const Arguments&)>;
+    RemoteCluster(const Start& start, int servers);
+
+    // The client's flags for it.
+    Arguments flags() const;
+    Process& server(std::size_t i) { return *servers_.at(i); }
+    Process& display() { return *display_; }
+    const std::string& server_address(std::size_t i) const { return server_addresses_.at(i); }
+    const std::string& display_address() const { return display_address_; }
+
+  private:
+    std::unique_ptr<Process> display_;
+    std::string display_address_;
+    std::vector<std::unique_ptr<Process>> servers_;
+    std::vector<std::string> server_addresses_;
+};
+
+// Where a server or display says that it listens.
+std::string listening_address(Process& process);
+
+std::vector<std::string> file_names(const std::filesystem::path& folder);  // sorted
+std::string contents(const std::filesystem::path& file);
+
+// Both folders hold the same files, at least one, byte for byte. A difference is told in pixels.
+void expect_same_pictures(const std::filesystem::path& expected, const std::filesystem::path& actual);
+// Every picture in the folder shows nothing but this colour.
+void expect_only(std::array<std::uint8_t, 3> colour, const std::filesystem::path& folder);
+void expect_not_only(std::array<std::uint8_t, 3> colour, const std::filesystem::path& folder);
+
+// No sanitizer, assertion or exception has spoken.
+void expect_no_crash(const Finished& finished);
+// Ended with this exit code and exactly one line that starts with "error: "; it has all these words.
+void expect_one_error(const Finished& finished, int exit_code, const std::vector<std::string>& words);
+
+}  // namespace swath::test
