@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
+#include <vector>
 
 namespace swath::test {
 namespace asio = boost::asio;
@@ -100,15 +100,14 @@ std::string Peer::ending() {
 void RawPeer::send(std::string_view bytes) { asio::write(socket_, asio::buffer(bytes.data(), bytes.size())); }
 
 const std::string& RawPeer::read(std::size_t count) {
-    bool ended = false;
-    while (!ended && received_.size() < count) {
+    std::vector<char> some(std::size_t{256} << 10);
+    while (!ended_ && received_.size() < count) {
         bool came = false;
-        std::array<char, 4096> some{};
         socket_.async_read_some(asio::buffer(some),
                                 [&](const boost::system::error_code& error, std::size_t got) {
                                     received_.append(some.data(), got);
                                     came = true;
-                                    ended = static_cast<bool>(error);
+                                    ended_ = static_cast<bool>(error);
                                 });
         if (!loop_.run_until([&] { return came; })) {
             socket_.cancel();

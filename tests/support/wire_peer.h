@@ -95,6 +95,7 @@ class RawPeer {
     Loop& loop_;
     boost::asio::ip::tcp::socket socket_;
     std::string received_;
+    bool ended_ = false;
 };
 
 // A whole message as bytes.
