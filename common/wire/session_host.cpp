@@ -78,6 +78,10 @@ void SessionHost::on_closed(const std::shared_ptr<Connection>& connection, const
         return;
     }
     if (!session_ || !session_->on_closed(connection, why)) return;
+    if (why)
+        spdlog::info("client {}: done", connection->peer());
+    else
+        spdlog::warn("client {}: {}; waiting for the next client", connection->peer(), why.error().message);
     // Let the caller's stack unwind before the session and its connections go.
     boost::asio::post(io_, [session = std::move(session_)] { session->stop(); });
 }

@@ -29,14 +29,7 @@ void DisplaySession::give_up(const Error& error) {
 }
 
 bool DisplaySession::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
-    if (connection == client_) {
-        if (why)
-            spdlog::info("client {}: done", connection->peer());
-        else
-            spdlog::warn("client {}: {}; waiting for the next client", connection->peer(),
-                         why.error().message);
-        return true;
-    }
+    if (connection == client_) return true;
     for (std::size_t i = 0; i < servers_.size(); ++i) {
         if (servers_[i] != connection) continue;
         servers_[i].reset();

@@ -53,14 +53,7 @@ void ServerSession::tell_client(const Message& message) {
 }
 
 bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
-    if (connection == client_) {
-        if (why)
-            spdlog::info("client {}: done", connection->peer());
-        else
-            spdlog::warn("client {}: {}; waiting for the next client", connection->peer(),
-                         why.error().message);
-        return true;
-    }
+    if (connection == client_) return true;
     std::string who;
     if (connection == display_) {
         who = "the display at " + setup_.display;
