@@ -143,5 +143,16 @@ TEST_F(PrefixTest, WithBitsWhereNoneBelongIsRefused) {
     EXPECT_EQ(refused(bytes_), "a garbled message prefix");
 }
 
+// The example of docs/wire.md; tests/common/image holds its body to the same bytes.
+TEST(Head, OfTheWorkedExampleIsWhatTheDocumentShows) {
+    const std::string swath = encode_head(SwathPixels{7, {3, 6, 6}});
+    EXPECT_EQ(swath, std::string("\x6a\x08\x08\x07\x10\x03\x18\x06\x20\x06", 10));
+    EXPECT_EQ(encode_head(TilePixels{7, {3, 6, 0}}), std::string("\x72\x06\x08\x07\x10\x03\x18\x06", 8));
+    EXPECT_EQ(encode_head(Bye{}), std::string("\x92\x01\x00", 3));
+    const auto prefix = encode_prefix({static_cast<std::uint32_t>(swath.size()), 33});
+    EXPECT_EQ(std::string(prefix.begin(), prefix.end()),
+              std::string("SWTH\x01\0\0\0\x0a\0\0\0\x21\0\0\0", 16));
+}
+
 }  // namespace
 }  // namespace swath
