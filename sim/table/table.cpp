@@ -1,0 +1,1 @@
+#include "sim/table/table.h"
