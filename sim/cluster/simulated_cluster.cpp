@@ -1,0 +1,258 @@
+#include "sim/cluster/simulated_cluster.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "client/director/director.h"
+#include "common/base/check.h"
+#include "display/assemble/assembly.h"
+#include "server/swap/frame_swap.h"
+#include "sim/cluster/simulated_server.h"
+#include "sim/cost/client_time.h"
+#include "sim/cost/frame_work.h"
+#include "sim/engine/event_queue.h"
+#include "sim/engine/flow_network.h"
+#include "sim/engine/station.h"
+
+namespace swath::sim {
+namespace {
+
+// Reports carry a few spans and counters; the display's task a rectangle a tile.
+constexpr double kReportBytes = 300;
+constexpr double kAssembleBytesPerServer = 24;
+
+double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
+
+class Cluster {
+  public:
+    explicit Cluster(const ClusterScenario& scenario)
+        : scenario_(scenario),
+          partitioner_(make_partitioner(scenario.algorithm, scenario.objects)),
+          network_(events_, rates_of(scenario)),
+          director_(scenario.cameras.size(), scenario.frames_in_flight),
+          client_(events_),
+          display_(events_),
+          assembly_(scenario.frames_in_flight) {
+        for (std::size_t s = 0; s < scenario.servers; ++s)
+            servers_.push_back(std::make_unique<SimulatedServer>(
+                events_, scenario.hardware.server.compositing, scenario.frames_in_flight,
+                SimulatedServer::Outside{
+                    [this, s](FrameNumber f, const SwathWork& swath) { send_swath(f, server_id(s), swath); },
+                    [this, s](FrameNumber f) { send_tile(f, server_id(s)); },
+                    [this, s](FrameNumber f) { send_report(f, server_id(s)); }}));
+    }
+
+    ClusterRunCosts run() {
+        follow(director_.on_start());
+        events_.run();
+        CHECK(director_.complete() == scenario_.cameras.size());
+        return costs();
+    }
+
+  private:
+    // A frame between its issue and its last report.
+    struct Frame {
+        Nanoseconds begin{0};
+        std::vector<ServerWork> work;
+        FrameTimeline timeline;
+        MachineTimeline client;
+        MachineTimeline display;
+        std::size_t reports_missing = 0;
+    };
+
+    static constexpr std::size_t kClient = 0;
+    static std::size_t host(ServerId id) { return 1 + index(id); }
+    std::size_t display_host() const { return 1 + servers_.size(); }
+
+    static NetworkRates rates_of(const ClusterScenario& scenario) {
+        const Hardware::Network& network = scenario.hardware.network;
+        return {std::vector<NicRates>(scenario.servers + 2, {network.bytes_per_s, network.bytes_per_s}),
+                network.core_bytes_per_s, nanoseconds(network.latency_s)};
+    }
+
+    void follow(const Director::Actions& actions) {
+        for (const DirectorAction& action : actions)
+            if (action.kind == DirectorAction::Kind::kIssue) issue(action.frame);
+    }
+
+    void issue(FrameNumber number) {
+        const View view = make_view(scenario_.cameras[number], scenario_.width, scenario_.height);
+        const Accounting accounting =
+            scenario_.hardware.server.culls ? Accounting::kCluster : Accounting::kPaper;
+        const auto objects = project(scenario_.objects, view, accounting);
+        const FramePlan plan = partitioner_->partition({number, view, objects, scenario_.servers});
+        Frame& frame = frames_[number];
+        frame.work = frame_work(plan, objects, scenario_.hardware);
+        double polygons = 0;
+        for (const ProjectedObject& object : objects) polygons += static_cast<double>(object.work);
+        single_s_ += polygons * scenario_.hardware.server.polygon_s;
+        const double time_s = client_s(objects.size(), scenario_.servers, scenario_.algorithm, scenario_.hardware);
+        client_.submit(nanoseconds(time_s), [this, number](Nanoseconds begin, Nanoseconds end) {
+            Frame& issued = frames_.at(number);
+            issued.begin = begin;
+            issued.client.spans.push_back({Phase::kPartition, begin, end, end - begin});
+            send_tasks(number);
+        });
+    }
+
+    void send_tasks(FrameNumber number) {
+        Frame& frame = frames_.at(number);
+        std::size_t working = 0;
+        std::vector<ServerId> tiles;
+        for (std::size_t s = 0; s < frame.work.size(); ++s) {
+            const ServerWork& work = frame.work[s];
+            if (work.has_tile) tiles.push_back(server_id(s));
+            if (!work.takes_part) continue;
+            ++working;
+            network_.send(kClient, host(server_id(s)), work.task_bytes,
+                          [this, number, s] { servers_[s]->on_task(number, frames_.at(number).work[s]); });
+        }
+        const double bytes = kReportBytes + kAssembleBytesPerServer * static_cast<double>(tiles.size());
+        network_.send(kClient, display_host(), bytes, [this, number, tiles = std::move(tiles)] {
+            follow(number, assembly_.on_task(number, tiles).value());
+        });
+        frame.reports_missing = working + 1;
+        director_.on_issued(number, working);
+    }
+
+    void send_swath(FrameNumber number, ServerId from, const SwathWork& swath) {
+        network_.send(host(from), host(swath.peer), swath.bytes,
+                      [this, number, from, to = index(swath.peer), merge_s = swath.merge_s] {
+                          servers_[to]->on_swath(number, from, merge_s);
+                      });
+    }
+
+    void send_tile(FrameNumber number, ServerId from) {
+        network_.send(host(from), display_host(), frames_.at(number).work[index(from)].tile_bytes,
+                      [this, number, from] { follow(number, assembly_.on_tile(number, from).value()); });
+    }
+
+    void send_report(FrameNumber number, ServerId from) {
+        network_.send(host(from), kClient, kReportBytes, [this, number] {
+            const auto actions = director_.on_server_report(number).value();
+            end_report(number);
+            follow(actions);
+        });
+    }
+
+    void follow(FrameNumber, const Assembly::Actions& actions) {
+        for (const AssemblyAction& action : actions) {
+            const FrameNumber number = action.frame;
+            if (action.kind == AssemblyAction::Kind::kMerge) {
+                const double time_s = frames_.at(number).work[index(action.server)].display_s;
+                display_.submit(nanoseconds(time_s), [this, number](Nanoseconds begin, Nanoseconds end) {
+                    frames_.at(number).display.spans.push_back({Phase::kAssemble, begin, end, end - begin});
+                });
+            } else {
+                display_.submit(Nanoseconds(0), [this, number](Nanoseconds, Nanoseconds end) {
+                    on_picture(number, end);
+                });
+            }
+        }
+    }
+
+    void on_picture(FrameNumber number, Nanoseconds when) {
+        pictures_.push_back(when);
+        latency_s_ += seconds(when - frames_.at(number).begin);
+        network_.send(display_host(), kClient, kReportBytes, [this, number] {
+            const auto actions = director_.on_display_report(number).value();
+            end_report(number);
+            follow(actions);
+        });
+    }
+
+    // The frame is forgotten with its last report.
+    void end_report(FrameNumber number) {
+        Frame& frame = frames_.at(number);
+        if (--frame.reports_missing > 0) return;
+        if (scenario_.keep_timelines) {
+            FrameTimeline timeline;
+            timeline.frame = number;
+            frame.client.machine = "client";
+            frame.display.machine = "display";
+            timeline.machines.push_back(std::move(frame.client));
+            for (std::size_t s = 0; s < servers_.size(); ++s) {
+                MachineTimeline machine;
+                machine.machine = server_name(server_id(s));
+                machine.spans = servers_[s]->take_spans(number);
+                timeline.machines.push_back(std::move(machine));
+            }
+            timeline.machines.push_back(std::move(frame.display));
+            timelines_.push_back(std::move(timeline));
+        } else {
+            for (const auto& server : servers_) server->take_spans(number);
+        }
+        frames_.erase(number);
+    }
+
+    ClusterRunCosts costs() {
+        const auto frames = static_cast<double>(pictures_.size());
+        const double run_s = seconds(events_.now());
+        ClusterRunCosts costs;
+        costs.single_s = single_s_ / frames;
+        costs.latency_s = latency_s_ / frames;
+        costs.frame_s = pictures_.size() > 1
+                            ? seconds(pictures_.back() - pictures_.front()) / (frames - 1)
+                            : costs.latency_s;
+        costs.events = events_.executed();
+
+        const auto share = [&](double busy_s) { return run_s > 0 ? busy_s / run_s : 0; };
+        const auto on_link = [&](double bytes) { return bytes / scenario_.hardware.network.bytes_per_s; };
+        double draw_s = 0;
+        double host_s = 0;
+        double link_s = 0;
+        for (std::size_t s = 0; s < servers_.size(); ++s) {
+            draw_s = std::max(draw_s, seconds(servers_[s]->draw_busy()));
+            host_s = std::max(host_s, seconds(servers_[s]->pixel_busy()));
+            const std::size_t at = host(server_id(s));
+            link_s = std::max({link_s, on_link(network_.bytes_out(at)), on_link(network_.bytes_in(at))});
+        }
+        const bool on_card = scenario_.hardware.server.compositing == Compositing::kGraphics;
+        costs.use.push_back({"client", share(seconds(client_.busy()))});
+        costs.use.push_back({on_card ? "server graphics" : "server drawing", share(draw_s)});
+        if (!on_card) costs.use.push_back({"server compositing", share(host_s)});
+        costs.use.push_back({"server network", share(link_s)});
+        if (const auto core = scenario_.hardware.network.core_bytes_per_s)
+            costs.use.push_back({"network core", share(network_.bytes() / *core)});
+        costs.use.push_back({"display network", share(on_link(network_.bytes_in(display_host())))});
+        costs.use.push_back({"display", share(seconds(display_.busy()))});
+        std::sort(timelines_.begin(), timelines_.end(),
+                  [](const FrameTimeline& a, const FrameTimeline& b) { return a.frame < b.frame; });
+        costs.timelines = std::move(timelines_);
+        return costs;
+    }
+
+    const ClusterScenario& scenario_;
+    std::unique_ptr<Partitioner> partitioner_;
+    EventQueue events_;
+    FlowNetwork network_;
+    Director director_;
+    Station client_;
+    std::vector<std::unique_ptr<SimulatedServer>> servers_;
+    Station display_;
+    Assembly assembly_;
+    std::map<FrameNumber, Frame> frames_;
+    std::vector<FrameTimeline> timelines_;
+    std::vector<Nanoseconds> pictures_;  // when each was complete
+    double latency_s_ = 0;
+    double single_s_ = 0;
+};
+
+}  // namespace
+
+const ResourceUse& ClusterRunCosts::bottleneck() const {
+    return *std::max_element(use.begin(), use.end(), [](const ResourceUse& a, const ResourceUse& b) {
+        return a.share < b.share;
+    });
+}
+
+ClusterRunCosts simulate(const ClusterScenario& scenario) {
+    CHECK(!scenario.cameras.empty());
+    CHECK(scenario.servers >= 1u);
+    CHECK(scenario.servers <= kMaxServers);
+    CHECK(scenario.frames_in_flight >= 1u);
+    return Cluster(scenario).run();
+}
+
+}  // namespace swath::sim

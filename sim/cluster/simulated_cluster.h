@@ -1,0 +1,54 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client/partition/partitioner.h"
+#include "common/base/clock.h"
+#include "common/geometry/camera.h"
+#include "common/scene/objects.h"
+#include "common/timeline/timeline.h"
+#include "sim/hardware/hardware.h"
+
+namespace swath::sim {
+
+// A run of the cluster on modelled machines.
+struct ClusterScenario {
+    std::span<const Object> objects;
+    std::span<const Camera> cameras;  // a frame each, at least one
+    int width = 1280;
+    int height = 960;
+    Algorithm algorithm = Algorithm::kHybrid;
+    std::size_t servers = 1;  // 1 to kMaxServers
+    std::size_t frames_in_flight = 3;
+    Hardware hardware;
+    bool keep_timelines = false;
+};
+
+// How much of the run a resource was at work, 0 to 1; of the busiest machine where several have one.
+struct ResourceUse {
+    std::string resource;  // "server draw", "display network", ...
+    double share = 0;
+};
+
+struct ClusterRunCosts {
+    double frame_s = 0;    // between one complete picture and the next, over the whole run
+    double latency_s = 0;  // mean, from the beginning of a frame's partition to its complete picture
+    double single_s = 0;   // mean a frame: one server that draws all there is to draw and does nothing else
+    std::vector<ResourceUse> use;            // in a fixed order
+    std::vector<FrameTimeline> timelines;    // if wanted
+    std::uint64_t events = 0;
+    const ResourceUse& bottleneck() const;  // the busiest
+};
+
+// Simulates client, servers, network and display, all at work on their frames at once. The machines are
+// driven by the objects that the real programs are driven by (partitioner, Director, FrameSwap, Assembly);
+// only durations are modelled. Deterministic. Thread-safe: every call has its own world.
+//
+// A server with compositing on its graphics card has one frame on the card at a time: drawing, swath reads
+// and writes and the tile's read follow one another there. With compositing in host memory one thread draws
+// and reads back, and another codes, merges and gathers, also while the next frame is drawn.
+ClusterRunCosts simulate(const ClusterScenario& scenario);
+
+}  // namespace swath::sim

@@ -1,0 +1,126 @@
+#include "sim/cost/paper_frame.h"
+
+#include <algorithm>
+
+#include "common/base/check.h"
+#include "sim/cost/client_time.h"
+
+namespace swath::sim {
+namespace {
+
+double pixels(const Rect& rect) { return static_cast<double>(rect.area()); }
+
+// The plan with contents as the paper has them: also unseen objects count.
+FramePlan with_whole_contents(const FramePlan& plan, std::span<const ProjectedObject> objects,
+                              Algorithm algorithm) {
+    const bool clipped = grouping_of(algorithm) == Grouping::kAtLeastOnce;
+    FramePlan whole = plan;
+    for (ServerShare& share : whole.servers) {
+        const Rect tile = share.tile.empty() ? Rect{} : share.tile.front();
+        share.content = {};
+        for (const ObjectId id : share.group)
+            share.content =
+                bounding(share.content, clipped ? intersect(objects[id].box, tile) : objects[id].box);
+    }
+    return whole;
+}
+
+void add_final_read(const Rect& read, const Rect& sent, const Hardware& hardware, ServerTimes& server,
+                    PaperFrame& frame) {
+    if (!read.empty()) server.final_s += hardware.server.colour.read_s(pixels(read));
+    if (!sent.empty()) frame.display_s += hardware.display.colour.write_s(pixels(sent));
+}
+
+}  // namespace
+
+PaperFrame paper_frame(const FramePlan& plan, std::span<const ProjectedObject> objects, Algorithm algorithm,
+                       const Hardware& hardware) {
+    const FramePlan whole = with_whole_contents(plan, objects, algorithm);
+    Rect region;
+    for (const ProjectedObject& object : objects) region = bounding(region, object.box);
+
+    PaperFrame frame;
+    frame.client_s = client_s(objects.size(), plan.servers.size(), algorithm, hardware);
+    frame.servers.resize(plan.servers.size());
+    for (std::size_t s = 0; s < plan.servers.size(); ++s) {
+        ServerTimes& server = frame.servers[s];
+        const ServerShare& share = whole.servers[s];
+        for (const ObjectId id : share.group)
+            server.render_s += static_cast<double>(objects[id].work) * hardware.server.polygon_s;
+        if (algorithm == Algorithm::kSortLast) {
+            for (const Rect& rect : final_region(whole, server_id(s)))
+                add_final_read(rect, rect, hardware, server, frame);
+        } else if (!share.tile.empty()) {
+            const Rect tile = intersect(share.tile.front(), region);
+            const Rect read = algorithm == Algorithm::kHybrid ? tile : share.content;
+            add_final_read(read, tile, hardware, server, frame);
+        }
+    }
+    for (const Transfer& transfer : transfers(whole)) {
+        for (const Rect& rect : transfer.region) {
+            frame.servers[index(transfer.from)].read_s +=
+                hardware.server.colour.read_s(pixels(rect)) + hardware.server.depth.read_s(pixels(rect));
+            frame.servers[index(transfer.to)].write_s +=
+                hardware.server.colour.write_s(pixels(rect)) + hardware.server.depth.write_s(pixels(rect));
+        }
+    }
+    return frame;
+}
+
+void PaperMeans::add(const PaperFrame& frame) {
+    const auto servers = static_cast<double>(frame.servers.size());
+    double longest_s = 0;
+    for (const ServerTimes& server : frame.servers) {
+        mean_.render_s += server.render_s / servers;
+        mean_.read_s += server.read_s / servers;
+        mean_.write_s += server.write_s / servers;
+        mean_.final_s += server.final_s / servers;
+        longest_s = std::max(longest_s, server.total_s());
+    }
+    longest_s_ += longest_s;
+    client_s_ += frame.client_s;
+    display_s_ += frame.display_s;
+    ++frames_;
+}
+
+void PaperMeans::add(const PaperMeans& other) {
+    frames_ += other.frames_;
+    mean_.render_s += other.mean_.render_s;
+    mean_.read_s += other.mean_.read_s;
+    mean_.write_s += other.mean_.write_s;
+    mean_.final_s += other.mean_.final_s;
+    longest_s_ += other.longest_s_;
+    client_s_ += other.client_s_;
+    display_s_ += other.display_s_;
+}
+
+std::vector<Row> PaperMeans::table1(const Row& of, double ideal_s) const {
+    CHECK(frames_ > 0);
+    const double to_ms = 1e3 / frames_;
+    const double total_ms = longest_s_ * to_ms;
+    const double ideal_ms = ideal_s * 1e3;
+    std::vector<Row> rows;
+    const auto add = [&](const char* column, double value) {
+        rows.push_back({of.algorithm, of.model, of.servers, column, value});
+    };
+    add("ideal_render", ideal_ms);
+    add("overlap_render", mean_.render_s * to_ms - ideal_ms);
+    add("pixel_read", mean_.read_s * to_ms);
+    add("pixel_write", mean_.write_s * to_ms);
+    add("final_read", mean_.final_s * to_ms);
+    add("imbalance", total_ms - mean_.total_s() * to_ms);
+    add("server_total", total_ms);
+    add("display_write", display_s_ * to_ms);
+    add("speedup", total_ms > 0 ? ideal_ms * static_cast<double>(of.servers) / total_ms : 0);
+    return rows;
+}
+
+std::vector<Row> PaperMeans::stages(const Row& of) const {
+    CHECK(frames_ > 0);
+    const double to_ms = 1e3 / frames_;
+    return {{of.algorithm, of.model, of.servers, "client", client_s_ * to_ms},
+            {of.algorithm, of.model, of.servers, "effective_frame",
+             std::max({client_s_, longest_s_, display_s_}) * to_ms}};
+}
+
+}  // namespace swath::sim
