@@ -1,6 +1,8 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "sim/engine/event_queue.h"
@@ -20,20 +22,132 @@ struct NetworkRates {
 };
 
 // A crossbar between machines. Messages are fluid flows: at every moment the flows in progress share the
-// interfaces (and the core) max-min fairly. Deterministic; not thread-safe.
+// interfaces (and the core) max-min fairly, each flow for itself: every flow crosses a saturated link on
+// which no other flow is faster (Bertsekas and Gallager, Data Networks, section 6.5.2). Rates change only
+// when flows begin or end, and are found once for everything that happens at an instant.
+//
+// A message arrives at the first whole nanosecond at which all its bytes are there (less a thousandth, or
+// 1e-12 of its time, for rounding, so that equal flows arrive together); those of the same instant in the
+// order in which they were sent. Until then it keeps its share. Deterministic; not thread-safe. Borrows the
+// queue, and lives until the queue has run.
+//
+// Flows between the same two hosts have the same rate and are one Pair. An instant with changes costs
+// O(P + L log L) for the P pairs and L links that are connected to a change by links in use (all, with a
+// core), and a look at the next end of every pair in use.
 class FlowNetwork {
   public:
-    // Rates are positive and finite (CHECKed).
+    // Rates are positive and finite, the latency is not negative (CHECKed).
     FlowNetwork(EventQueue& events, NetworkRates rates);
+    FlowNetwork(const FlowNetwork&) = delete;
+    FlowNetwork& operator=(const FlowNetwork&) = delete;
 
     // `arrived` is called when the last byte is there: after the latency, and the time the bytes take. Hosts
-    // are places in NetworkRates::hosts; a message to oneself takes the latency alone. bytes >= 0.
+    // are places in NetworkRates::hosts; a message to oneself, or of no bytes, takes the latency alone. bytes
+    // >= 0, finite. (All CHECKed.)
     void send(std::size_t from, std::size_t to, double bytes, EventQueue::Action arrived);
 
-    // Bytes that have left and entered a host so far, those under way included in full.
-    double bytes_out(std::size_t host) const;
-    double bytes_in(std::size_t host) const;
-    double bytes() const;  // of all hosts
+    // Bytes that have left and entered a host so far, those under way included in full, those of messages to
+    // oneself not at all.
+    double bytes_out(std::size_t host) const { return bytes_out_.at(host); }
+    double bytes_in(std::size_t host) const { return bytes_in_.at(host); }
+    double bytes() const { return bytes_; }  // of all hosts, each counted once
+
+    // What each flow between these hosts has, in bytes a second, since rates were last found; 0 if there is
+    // none.
+    double rate(std::size_t from, std::size_t to) const;
+
+  private:
+    using Index = std::uint32_t;
+
+    struct Flow {
+        Index from;
+        Index to;
+        double bytes;
+        std::uint64_t number;  // by order of send()
+        EventQueue::Action arrived;
+    };
+    struct Waiting {
+        double until;  // Pair::served at the flow's end
+        std::uint64_t number;
+        Index flow;
+    };
+    // What sharing looks at of a pair, kept apart because it looks at every pair.
+    struct Share {
+        Index out_link;
+        Index in_link;
+        Index flows;
+        Index round;  // of sharing, in which `rate` was found
+        double rate;
+    };
+    // A pair of hosts with flows between them.
+    struct Pair {
+        double rate = 0;    // of each flow, since `since`
+        double served = 0;  // bytes that a flow has had at `since` which was there from the beginning
+        Nanoseconds since{0};
+        bool changed = false;  // flows came or went at this instant
+        Index active_place = 0;
+        Index out_place = 0;
+        Index in_place = 0;
+        std::vector<Waiting> flows;
+    };
+    struct Link {
+        double rate = 0;
+        Index flows = 0;
+        Index round = 0;       // in which it was reached
+        bool touched = false;  // listed in touched_
+        double given = 0;      // while sharing: to flows whose rate is found
+        double open = 0;       // while sharing: flows whose rate is not
+        std::vector<Index> pairs;
+        double level() const { return (rate - given) / open; }
+    };
+    struct Level {
+        double level;
+        Index link;
+    };
+
+    void begin(Index flow);
+    void end_flows();
+    void share();
+    void reach();
+    void fill();
+    void give(Index pair, double rate);
+    void apply(Index pair);
+    void wake_at_next_end();
+
+    Index pair_of(Index from, Index to);
+    void activate(Index pair);
+    void deactivate(Index pair);
+    void change(Index pair);
+    double served(const Pair& pair) const;
+    Nanoseconds end_of(const Pair& pair) const;
+
+    EventQueue& events_;
+    Nanoseconds latency_;
+    std::vector<Link> links_;  // out of each host, then into each host
+    std::optional<Link> core_;
+    std::vector<double> bytes_out_;
+    std::vector<double> bytes_in_;
+    double bytes_ = 0;
+
+    std::vector<Flow> flows_;
+    std::vector<Index> free_flows_;
+    std::uint64_t sent_ = 0;
+    std::unordered_map<std::uint64_t, Index> pair_index_;  // looked up, never walked
+    std::vector<Pair> pairs_;
+    std::vector<Share> shares_;      // by pair
+    std::vector<Index> active_;      // pairs with flows
+    std::vector<Nanoseconds> ends_;  // the first end of active_'s pairs
+
+    bool sharing_asked_ = false;
+    Index round_ = 0;
+    std::vector<Index> touched_;  // links
+    std::vector<Index> reached_links_;
+    std::vector<Index> reached_pairs_;
+    std::vector<Level> levels_;
+    std::vector<Waiting> ended_;
+
+    Nanoseconds wake_at_{0};
+    std::optional<EventQueue::Ticket> wake_;
 };
 
 }  // namespace swath::sim

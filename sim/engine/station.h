@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+#include <deque>
 #include <functional>
 
 #include "sim/engine/event_queue.h"
@@ -6,7 +8,7 @@
 namespace swath::sim {
 
 // Something that does one job at a time, in the order in which they came: a graphics card, a core, a frame
-// buffer. Not thread-safe.
+// buffer. Borrows the queue, and lives until the queue has run its jobs. Not thread-safe.
 class Station {
   public:
     using Done = std::function<void(Nanoseconds begin, Nanoseconds end)>;
@@ -15,13 +17,21 @@ class Station {
     Station(const Station&) = delete;
     Station& operator=(const Station&) = delete;
 
-    // `duration` is not negative. `done` is called at the job's end.
+    // The job begins now, or when those before it have ended. `duration` is not negative (CHECKed). `done` is
+    // called at the job's end.
     void submit(Nanoseconds duration, Done done);
 
     Nanoseconds busy() const { return busy_; }  // in all, of the jobs submitted so far
 
   private:
+    struct Job {
+        Nanoseconds begin;
+        Nanoseconds end;
+        Done done;
+    };
+
     EventQueue& events_;
+    std::deque<Job> jobs_;  // not ended
     Nanoseconds free_at_{0};
     Nanoseconds busy_{0};
 };
