@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "client/director/director.h"
 #include "common/base/check.h"
@@ -14,6 +15,7 @@
 #include "sim/engine/event_queue.h"
 #include "sim/engine/flow_network.h"
 #include "sim/engine/station.h"
+#include "sim/engine/stream.h"
 
 namespace swath::sim {
 namespace {
@@ -68,7 +70,16 @@ class Cluster {
     static NetworkRates rates_of(const ClusterScenario& scenario) {
         const Hardware::Network& network = scenario.hardware.network;
         return {std::vector<NicRates>(scenario.servers + 2, {network.bytes_per_s, network.bytes_per_s}),
-                network.core_bytes_per_s, nanoseconds(network.latency_s)};
+                network.core_bytes_per_s, Nanoseconds(0)};
+    }
+
+    // On the connection of the two, which is made when it is first needed.
+    void send(std::size_t from, std::size_t to, double bytes, EventQueue::Action arrived) {
+        std::unique_ptr<Stream>& stream = streams_[{from, to}];
+        if (!stream)
+            stream = std::make_unique<Stream>(events_, network_,
+                                              nanoseconds(scenario_.hardware.network.latency_s), from, to);
+        stream->send(bytes, std::move(arrived));
     }
 
     void follow(const Director::Actions& actions) {
@@ -105,32 +116,31 @@ class Cluster {
             if (work.has_tile) tiles.push_back(server_id(s));
             if (!work.takes_part) continue;
             ++working;
-            network_.send(kClient, host(server_id(s)), work.task_bytes,
-                          [this, number, s] { servers_[s]->on_task(number, frames_.at(number).work[s]); });
+            send(kClient, host(server_id(s)), work.task_bytes, [this, number, s] { servers_[s]->on_task(number, frames_.at(number).work[s]); });
         }
         const double bytes = kReportBytes + kAssembleBytesPerServer * static_cast<double>(tiles.size());
-        network_.send(kClient, display_host(), bytes, [this, number, tiles = std::move(tiles)] {
-            follow(number, assembly_.on_task(number, tiles).value());
+        send(kClient, display_host(), bytes, [this, number, tiles = std::move(tiles)] {
+            follow(number, decided(assembly_.on_task(number, tiles)));
         });
         frame.reports_missing = working + 1;
         director_.on_issued(number, working);
     }
 
     void send_swath(FrameNumber number, ServerId from, const SwathWork& swath) {
-        network_.send(host(from), host(swath.peer), swath.bytes,
+        send(host(from), host(swath.peer), swath.bytes,
                       [this, number, from, to = index(swath.peer), merge_s = swath.merge_s] {
                           servers_[to]->on_swath(number, from, merge_s);
                       });
     }
 
     void send_tile(FrameNumber number, ServerId from) {
-        network_.send(host(from), display_host(), frames_.at(number).work[index(from)].tile_bytes,
-                      [this, number, from] { follow(number, assembly_.on_tile(number, from).value()); });
+        send(host(from), display_host(), frames_.at(number).work[index(from)].tile_bytes,
+                      [this, number, from] { follow(number, decided(assembly_.on_tile(number, from))); });
     }
 
     void send_report(FrameNumber number, ServerId from) {
-        network_.send(host(from), kClient, kReportBytes, [this, number] {
-            const auto actions = director_.on_server_report(number).value();
+        send(host(from), kClient, kReportBytes, [this, number] {
+            const auto actions = decided(director_.on_server_report(number));
             end_report(number);
             follow(actions);
         });
@@ -155,8 +165,8 @@ class Cluster {
     void on_picture(FrameNumber number, Nanoseconds when) {
         pictures_.push_back(when);
         latency_s_ += seconds(when - frames_.at(number).begin);
-        network_.send(display_host(), kClient, kReportBytes, [this, number] {
-            const auto actions = director_.on_display_report(number).value();
+        send(display_host(), kClient, kReportBytes, [this, number] {
+            const auto actions = decided(director_.on_display_report(number));
             end_report(number);
             follow(actions);
         });
@@ -227,6 +237,7 @@ class Cluster {
     std::unique_ptr<Partitioner> partitioner_;
     EventQueue events_;
     FlowNetwork network_;
+    std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<Stream>> streams_;
     Director director_;
     Station client_;
     std::vector<std::unique_ptr<SimulatedServer>> servers_;

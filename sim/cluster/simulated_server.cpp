@@ -17,12 +17,12 @@ void SimulatedServer::on_task(FrameNumber number, const ServerWork& work) {
     frames_[number].work = &work;
     SwapTask task{number, {}, work.incoming, work.has_tile};
     for (const SwathWork& swath : work.outgoing) task.outgoing.push_back(swath.peer);
-    run(swap_.on_task(task).value());
+    run(decided(swap_.on_task(task)));
 }
 
 void SimulatedServer::on_swath(FrameNumber number, ServerId from, double merge_s) {
     frames_[number].merge_s[from] = merge_s;
-    run(swap_.on_swath(number, from).value());
+    run(decided(swap_.on_swath(number, from)));
 }
 
 void SimulatedServer::run(const FrameSwap::Actions& actions) {

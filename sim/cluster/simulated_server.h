@@ -5,6 +5,8 @@
 #include <map>
 #include <vector>
 
+#include "common/base/check.h"
+#include "common/base/result.h"
 #include "common/timeline/timeline.h"
 #include "server/swap/frame_swap.h"
 #include "sim/cost/frame_work.h"
@@ -13,6 +15,13 @@
 namespace swath::sim {
 
 inline Nanoseconds nanoseconds(double seconds) { return Nanoseconds(std::llround(seconds * 1e9)); }
+
+// What a decision object says to an event. An error would blame a machine that is ours: a bug.
+template <class T>
+T decided(Result<T> decision) {
+    if (!decision) throw CheckFailed(decision.error().message);
+    return *std::move(decision);
+}
 
 // A server on modelled hardware: FrameSwap decides, its stations take the time. Lives in one simulation.
 class SimulatedServer {
