@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <iostream>
-#include <limits>
 
 #include "common/scene/procedural.h"
 
@@ -10,21 +9,6 @@ namespace swath {
 namespace {
 
 constexpr std::size_t kMaxLocalServers = 64;
-
-// "1280x960"
-Status parse_size(const std::string& text, int& width, int& height) {
-    const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, width);
-    if (first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x') {
-        const auto second = std::from_chars(first.ptr + 1, end, height);
-        if (second.ec == std::errc{} && second.ptr == end && width >= 1 && height >= 1 &&
-            width <= kMaxPictureSide && height <= kMaxPictureSide &&
-            std::int64_t{width} * height <= kMaxPicturePixels)
-            return {};
-    }
-    return fail("--size: '{}': expected WxH, each from 1 to {}, at most {} pixels", text, kMaxPictureSide,
-                kMaxPicturePixels);
-}
 
 // "ff8000"
 Status parse_colour(const std::string& text, Rgb& colour) {
@@ -36,29 +20,6 @@ Status parse_colour(const std::string& text, Rgb& colour) {
               static_cast<std::uint8_t>(value)};
     return {};
 }
-
-// CLI::Range lets "nan" through.
-CLI::Validator number_within(double low, double high) {
-    return CLI::Validator(
-        [low, high](std::string& text) -> std::string {
-            double value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (error == std::errc{} && end == text.data() + text.size() && value >= low && value <= high)
-                return {};
-            return fmt::format("Value {} not in range {} to {}", text, low, high);
-        },
-        fmt::format("FLOAT in [{} - {}]", low, high));
-}
-
-// A whole number; CLI11 takes "-1" for the largest.
-const CLI::Validator kSeed(
-    [](std::string& text) -> std::string {
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc{} && end == text.data() + text.size()) return {};
-        return fmt::format("{} is no whole number up to {}", text, std::numeric_limits<std::uint64_t>::max());
-    },
-    "");
 
 std::string builtin_list() {
     std::string list;
@@ -117,7 +78,9 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--path", options.path,
                    "of the camera: orbit, random (seeded, as in the paper), or a FILE with a camera a line")
         ->capture_default_str();
-    app.add_option("--seed", options.seed, "of the random path")->capture_default_str()->check(kSeed);
+    app.add_option("--seed", options.seed, "of the random path")
+        ->capture_default_str()
+        ->check(whole_number());
     app.add_option("--zoom", options.zoom, "1: the model about fills the picture")
         ->capture_default_str()
         ->check(number_within(0.01, 100));
@@ -140,7 +103,10 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     if (const auto code = parse_options(app, argc, argv)) return tl::unexpected(*code);
 
     const auto refuse = [](const Error& error) { return tl::unexpected(usage_error(error)); };
-    if (const auto s = parse_size(size, options.width, options.height); !s) return refuse(s.error());
+    const auto parsed_size = parse_size("--size", size);
+    if (!parsed_size) return refuse(parsed_size.error());
+    options.width = parsed_size->width;
+    options.height = parsed_size->height;
     if (const auto s = parse_colour(background, options.background); !s) return refuse(s.error());
     const auto parsed = parse_algorithm(algorithm);
     if (!parsed) return refuse(parsed.error());

@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-
 #include <filesystem>
 #include <iostream>
 #include <random>
@@ -13,9 +12,9 @@
 #include "client/launch/local_cluster.h"
 #include "client/path/path.h"
 #include "client/report/picture_writer.h"
-#include "client/report/progress.h"
 #include "client/single/single_run.h"
 #include "common/base/file.h"
+#include "common/program/progress.h"
 #include "common/scene/model.h"
 #include "common/scene/model_blob.h"
 #include "common/timeline/export.h"
@@ -66,7 +65,7 @@ Status run_client(const ClientOptions& options) {
     if (!cameras) return tl::unexpected(cameras.error());
 
     const PictureWriter writer(options.out, options.format);
-    Progress progress(cameras->size(), options.program.quiet, clock);
+    Progress progress(cameras->size(), "frames", options.program.quiet, clock);
     const auto on_picture = [&](FrameNumber frame, const Buffer& encoded) {
         progress.step();
         return writer.write(frame, encoded);

@@ -41,28 +41,6 @@ void set_raster_threads(int threads) {
     if (threads >= 0) ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
 }
 
-std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        std::cout << app.help();
-        return kExitDone;
-    } catch (const CLI::ParseError& error) {
-        return usage_error({error.what()});
-    }
-    return std::nullopt;
-}
-
-int usage_error(const Error& error) {
-    std::cerr << "error: " << error.message << " (see --help)\n";
-    return kExitUsage;
-}
-
-int run_error(const Error& error) {
-    std::cerr << "error: " << error.message << '\n';
-    return kExitFailed;
-}
-
 void start_log(const std::string& program, const ProgramOptions& options) {
     auto logger =
         std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>());

@@ -1,18 +1,15 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
-#include <optional>
 #include <string>
 
-#include "common/base/result.h"
+#include "common/program/cli.h"
 #include "common/wire/address.h"
 #include "common/wire/connection.h"
 
 namespace swath {
 
-// What the mains of the networked programs have in common.
-
-enum ExitCode { kExitDone = 0, kExitFailed = 1, kExitUsage = 2 };
+// What the mains of the networked programs have in common, besides cli.h.
 
 struct ProgramOptions {
     bool quiet = false;
@@ -25,12 +22,6 @@ void add_lifeline_option(CLI::App& app, ProgramOptions& options);  // for progra
 // first context: the threads that llvmpipe adds to the one that draws (-1: its own choice, one a core).
 void add_threads_option(CLI::App& app, int& threads);
 void set_raster_threads(int threads);
-
-// Parses; the exit code if the program is to end now (help, or a wrong flag: one line on stderr and
-// kExitUsage).
-std::optional<int> parse_options(CLI::App& app, int argc, char** argv);
-int usage_error(const Error& error);  // prints the line, gives kExitUsage
-int run_error(const Error& error);    // prints the line, gives kExitFailed
 
 // Log lines go to stderr, prefixed by the program.
 void start_log(const std::string& program, const ProgramOptions& options);

@@ -98,7 +98,8 @@ class Cluster {
         double polygons = 0;
         for (const ProjectedObject& object : objects) polygons += static_cast<double>(object.work);
         single_s_ += polygons * scenario_.hardware.server.polygon_s;
-        const double time_s = client_s(objects.size(), scenario_.servers, scenario_.algorithm, scenario_.hardware);
+        const double time_s =
+            client_s(objects.size(), scenario_.servers, scenario_.algorithm, scenario_.hardware);
         client_.submit(nanoseconds(time_s), [this, number](Nanoseconds begin, Nanoseconds end) {
             Frame& issued = frames_.at(number);
             issued.begin = begin;
@@ -116,7 +117,8 @@ class Cluster {
             if (work.has_tile) tiles.push_back(server_id(s));
             if (!work.takes_part) continue;
             ++working;
-            send(kClient, host(server_id(s)), work.task_bytes, [this, number, s] { servers_[s]->on_task(number, frames_.at(number).work[s]); });
+            send(kClient, host(server_id(s)), work.task_bytes,
+                 [this, number, s] { servers_[s]->on_task(number, frames_.at(number).work[s]); });
         }
         const double bytes = kReportBytes + kAssembleBytesPerServer * static_cast<double>(tiles.size());
         send(kClient, display_host(), bytes, [this, number, tiles = std::move(tiles)] {
@@ -128,14 +130,14 @@ class Cluster {
 
     void send_swath(FrameNumber number, ServerId from, const SwathWork& swath) {
         send(host(from), host(swath.peer), swath.bytes,
-                      [this, number, from, to = index(swath.peer), merge_s = swath.merge_s] {
-                          servers_[to]->on_swath(number, from, merge_s);
-                      });
+             [this, number, from, to = index(swath.peer), merge_s = swath.merge_s] {
+                 servers_[to]->on_swath(number, from, merge_s);
+             });
     }
 
     void send_tile(FrameNumber number, ServerId from) {
         send(host(from), display_host(), frames_.at(number).work[index(from)].tile_bytes,
-                      [this, number, from] { follow(number, decided(assembly_.on_tile(number, from))); });
+             [this, number, from] { follow(number, decided(assembly_.on_tile(number, from))); });
     }
 
     void send_report(FrameNumber number, ServerId from) {
@@ -155,9 +157,8 @@ class Cluster {
                     frames_.at(number).display.spans.push_back({Phase::kAssemble, begin, end, end - begin});
                 });
             } else {
-                display_.submit(Nanoseconds(0), [this, number](Nanoseconds, Nanoseconds end) {
-                    on_picture(number, end);
-                });
+                display_.submit(Nanoseconds(0),
+                                [this, number](Nanoseconds, Nanoseconds end) { on_picture(number, end); });
             }
         }
     }
@@ -202,9 +203,8 @@ class Cluster {
         ClusterRunCosts costs;
         costs.single_s = single_s_ / frames;
         costs.latency_s = latency_s_ / frames;
-        costs.frame_s = pictures_.size() > 1
-                            ? seconds(pictures_.back() - pictures_.front()) / (frames - 1)
-                            : costs.latency_s;
+        costs.frame_s = pictures_.size() > 1 ? seconds(pictures_.back() - pictures_.front()) / (frames - 1)
+                                             : costs.latency_s;
         costs.events = events_.executed();
 
         const auto share = [&](double busy_s) { return run_s > 0 ? busy_s / run_s : 0; };
@@ -253,9 +253,8 @@ class Cluster {
 }  // namespace
 
 const ResourceUse& ClusterRunCosts::bottleneck() const {
-    return *std::max_element(use.begin(), use.end(), [](const ResourceUse& a, const ResourceUse& b) {
-        return a.share < b.share;
-    });
+    return *std::max_element(use.begin(), use.end(),
+                             [](const ResourceUse& a, const ResourceUse& b) { return a.share < b.share; });
 }
 
 ClusterRunCosts simulate(const ClusterScenario& scenario) {

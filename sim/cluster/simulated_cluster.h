@@ -36,8 +36,8 @@ struct ClusterRunCosts {
     double frame_s = 0;    // between one complete picture and the next, over the whole run
     double latency_s = 0;  // mean, from the beginning of a frame's partition to its complete picture
     double single_s = 0;   // mean a frame: one server that draws all there is to draw and does nothing else
-    std::vector<ResourceUse> use;            // in a fixed order
-    std::vector<FrameTimeline> timelines;    // if wanted
+    std::vector<ResourceUse> use;          // in a fixed order
+    std::vector<FrameTimeline> timelines;  // if wanted
     std::uint64_t events = 0;
     const ResourceUse& bottleneck() const;  // the busiest
 };

@@ -79,11 +79,11 @@ void SimulatedServer::finish(FrameNumber number) {
 
 void SimulatedServer::work_on(Station& station, FrameNumber number, Phase phase, double duration_s,
                               std::function<void()> after) {
-    station.submit(nanoseconds(duration_s), [this, number, phase, after = std::move(after)](
-                                                Nanoseconds begin, Nanoseconds end) {
-        if (end > begin) frames_.at(number).spans.push_back({phase, begin, end, end - begin});
-        after();
-    });
+    station.submit(nanoseconds(duration_s),
+                   [this, number, phase, after = std::move(after)](Nanoseconds begin, Nanoseconds end) {
+                       if (end > begin) frames_.at(number).spans.push_back({phase, begin, end, end - begin});
+                       after();
+                   });
 }
 
 std::vector<Span> SimulatedServer::take_spans(FrameNumber number) {

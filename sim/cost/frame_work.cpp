@@ -30,8 +30,7 @@ class Pricer {
     }
 
     void add_drawing(double polygons, const Rect& content, ServerWork& work) const {
-        work.render_s =
-            std::max(polygons * server_.polygon_s, pixels(content) / server_.fill_pixels_per_s);
+        work.render_s = std::max(polygons * server_.polygon_s, pixels(content) / server_.fill_pixels_per_s);
         if (server_.compositing == Compositing::kHost && !content.empty())
             work.read_s = server_.colour.read_s(pixels(content)) + server_.depth.read_s(pixels(content));
     }
@@ -44,8 +43,7 @@ class Pricer {
         for (const Rect& rect : region) {
             if (server_.compositing == Compositing::kGraphics)
                 work.final_s += server_.colour.read_s(pixels(rect));
-            work.display_s +=
-                hardware_.display.colour.write_s(pixels(rect) * hardware_.network.active_share);
+            work.display_s += hardware_.display.colour.write_s(pixels(rect) * hardware_.network.active_share);
         }
     }
 

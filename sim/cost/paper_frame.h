@@ -51,7 +51,7 @@ class PaperMeans {
 
   private:
     double frames_ = 0;
-    ServerTimes mean_;     // over servers
+    ServerTimes mean_;      // over servers
     double longest_s_ = 0;  // total of the server that takes longest
     double client_s_ = 0;
     double display_s_ = 0;

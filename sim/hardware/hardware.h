@@ -6,7 +6,8 @@ namespace swath::sim {
 
 // Who merges the pixels that servers exchange.
 enum class Compositing {
-    kGraphics,  // the graphics card: a swath is read from and written to its buffers on its own (Samanta 2000)
+    kGraphics,  // the graphics card: a swath is read from and written to its buffers on its own (Samanta
+                // 2000)
     kHost,      // host memory: a server reads all it drew once, merges there and sends its tile from there
 };
 

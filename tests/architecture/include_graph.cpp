@@ -30,7 +30,7 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
      {"common/base", "common/geometry", "common/scene", "common/plan", "common/image", "common/timeline",
       "common/render"}},
     // What the mains share.
-    {"common/program", {"common/base", "common/wire"}},
+    {"common/program", {"common/base", "common/image", "common/wire"}},
 };
 
 // Decision code of the programs, which the simulator drives too.

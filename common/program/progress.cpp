@@ -1,9 +1,10 @@
-#include "client/report/progress.h"
+#include "common/program/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <utility>
 
 namespace swath {
 namespace {
@@ -11,8 +12,9 @@ constexpr std::size_t kBar = 30;  // characters
 constexpr auto kRedraw = std::chrono::milliseconds(50);
 }  // namespace
 
-Progress::Progress(std::size_t frames, bool quiet, const Clock& clock)
-    : frames_(frames),
+Progress::Progress(std::size_t total, std::string what, bool quiet, const Clock& clock)
+    : total_(total),
+      what_(std::move(what)),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       clock_(clock),
@@ -22,15 +24,18 @@ void Progress::step() {
     ++done_;
     if (quiet_) return;
     const Nanoseconds now = clock_.now();
-    const bool last = done_ == frames_;
-    if (terminal_ ? !last && now - drawn_ < kRedraw : 10 * done_ / frames_ == 10 * (done_ - 1) / frames_)
+    const bool last = done_ == total_;
+    if (terminal_ ? !last && now - drawn_ < kRedraw : 10 * done_ / total_ == 10 * (done_ - 1) / total_)
         return;
     drawn_ = now;
     const double seconds = std::chrono::duration<double>(now - begin_).count();
     const double rate = seconds > 0 ? static_cast<double>(done_) / seconds : 0;
-    const std::size_t full = kBar * done_ / frames_;
-    const std::string line = fmt::format("[{}{}] {}/{} frames, {:.1f} a second", std::string(full, '#'),
-                                         std::string(kBar - full, '.'), done_, frames_, rate);
+    const std::string left =
+        last || rate <= 0 ? ""
+                          : fmt::format(", {:.0f} s left", static_cast<double>(total_ - done_) / rate);
+    const std::size_t full = kBar * done_ / total_;
+    const std::string line = fmt::format("[{}{}] {}/{} {}, {:.1f} a second{}", std::string(full, '#'),
+                                         std::string(kBar - full, '.'), done_, total_, what_, rate, left);
     fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ && !last ? "" : "\n");
     std::fflush(stderr);
 }

@@ -1,0 +1,76 @@
+#include "common/program/cli.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdint>
+#include <iostream>
+#include <limits>
+
+#include "common/image/picture.h"
+
+namespace swath {
+
+std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        std::cout << app.help();
+        return kExitDone;
+    } catch (const CLI::ParseError& error) {
+        return usage_error({error.what()});
+    }
+    return std::nullopt;
+}
+
+int usage_error(const Error& error) {
+    std::cerr << "error: " << error.message << " (see --help)\n";
+    return kExitUsage;
+}
+
+int run_error(const Error& error) {
+    std::cerr << "error: " << error.message << '\n';
+    return kExitFailed;
+}
+
+Result<PictureSize> parse_size(const std::string& flag, const std::string& text) {
+    int width = 0;
+    int height = 0;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, width);
+    if (first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x') {
+        const auto second = std::from_chars(first.ptr + 1, end, height);
+        if (second.ec == std::errc{} && second.ptr == end && width >= 1 && height >= 1 &&
+            width <= kMaxPictureSide && height <= kMaxPictureSide &&
+            std::int64_t{width} * height <= kMaxPicturePixels)
+            return PictureSize{width, height};
+    }
+    return fail("{}: '{}': expected WxH, each from 1 to {}, at most {} pixels", flag, text, kMaxPictureSide,
+                kMaxPicturePixels);
+}
+
+CLI::Validator number_within(double low, double high) {
+    return CLI::Validator(
+        [low, high](std::string& text) -> std::string {
+            double value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (error == std::errc{} && end == text.data() + text.size() && value >= low && value <= high)
+                return {};
+            return fmt::format("Value {} not in range {} to {}", text, low, high);
+        },
+        fmt::format("FLOAT in [{} - {}]", low, high));
+}
+
+CLI::Validator whole_number() {
+    return CLI::Validator(
+        [](std::string& text) -> std::string {
+            std::uint64_t value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (error == std::errc{} && end == text.data() + text.size()) return {};
+            return fmt::format("{} is no whole number up to {}", text,
+                               std::numeric_limits<std::uint64_t>::max());
+        },
+        "");
+}
+
+}  // namespace swath

@@ -1,0 +1,32 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "common/base/result.h"
+
+namespace swath {
+
+// How every program of ours reads its command line and says what is wrong with it.
+
+enum ExitCode { kExitDone = 0, kExitFailed = 1, kExitUsage = 2 };
+
+// Parses; the exit code if the program is to end now (help, or a wrong flag: one line on stderr and
+// kExitUsage).
+std::optional<int> parse_options(CLI::App& app, int argc, char** argv);
+int usage_error(const Error& error);  // prints the line, gives kExitUsage
+int run_error(const Error& error);    // prints the line, gives kExitFailed
+
+// "1280x960", within the limits of pictures. Errors name the flag.
+struct PictureSize {
+    int width = 0;
+    int height = 0;
+    bool operator==(const PictureSize&) const = default;
+};
+Result<PictureSize> parse_size(const std::string& flag, const std::string& text);
+
+// Stricter than CLI11's own, which let "nan" through and take "-1" for the largest whole number.
+CLI::Validator number_within(double low, double high);
+CLI::Validator whole_number();  // of 64 bits
+
+}  // namespace swath
