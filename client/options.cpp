@@ -60,7 +60,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     remote->needs(remote_display)->excludes(local)->excludes(single);
     remote_display->needs(remote);
     single->excludes(local);
-    app.add_option("--algorithm", algorithm, "how to divide a frame: hybrid or sort-last")
+    app.add_option("--algorithm", algorithm, "how to divide a frame: " + algorithm_names())
         ->capture_default_str();
     app.add_option("--renderer", renderer, "osmesa, or egl (surfaceless)")
         ->capture_default_str()

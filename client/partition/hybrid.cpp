@@ -2,19 +2,11 @@
 
 #include <algorithm>
 
-#include "common/base/check.h"
-
 namespace swath {
 namespace {
 
 // The range of keys per item above which comparing beats counting, since counting looks at every key.
 constexpr std::size_t kSparseKeys = 6;
-
-Rect bounds_of(std::span<const ProjectedObject> objects) {
-    Rect bounds;
-    for (const ProjectedObject& object : objects) bounds = bounding(bounds, object.box);
-    return bounds;
-}
 
 // Half-way between the lines, halves rounded up, in [low, high].
 int cut_between(const SweepLines<int>& lines, int low, int high) {
@@ -32,32 +24,12 @@ struct Hybrid::Split {
 };
 
 FramePlan Hybrid::partition(const PartitionInput& input) {
-    CHECK(input.servers >= 1u);
-    CHECK(input.servers <= kMaxServers);
-    CHECK(input.objects.size() <= kMaxObjects);
-    const Rect viewport = input.view.viewport();
-    CHECK(!viewport.empty());
-
-    items_.resize(input.objects.size());
-    for (std::size_t i = 0; i < items_.size(); ++i) {
-        const ProjectedObject& object = input.objects[i];
-        CHECK(!object.box.empty());
-        CHECK(viewport.contains(object.box));
-        items_[i] = {{object.box.x0, object.box.y0},
-                     {object.box.x1, object.box.y1},
-                     object.work,
-                     static_cast<ObjectId>(i),
-                     object.visible};
-    }
+    FramePlan plan = begin_plan(input, items_);
     right_items_.resize(items_.size());
     from_left_.resize(items_.size());
     from_right_.resize(items_.size());
     sides_.resize(items_.size());
-
-    FramePlan plan;
-    plan.frame = input.frame;
-    plan.view = input.view;
-    plan.servers.resize(input.servers);
+    const Rect viewport = input.view.viewport();
     divide(items_, items_.empty() ? viewport : bounds_of(input.objects), viewport, plan.servers);
     return plan;
 }
@@ -65,42 +37,25 @@ FramePlan Hybrid::partition(const PartitionInput& input) {
 void Hybrid::divide(std::span<Item> items, const Rect& region, const Rect& tile,
                     std::span<ServerShare> servers) {
     if (servers.size() == 1) {
-        ServerShare& share = servers.front();
-        if (!tile.empty()) share.tile = {tile};
-        share.group.reserve(items.size());
-        for (const Item& item : items) {
-            share.group.push_back(item.id);
-            if (item.visible)
-                share.content =
-                    bounding(share.content, {item.low[0], item.low[1], item.high[0], item.high[1]});
-        }
+        servers.front() = share_of(items, tile);
         return;
     }
-    // Not Rect::width(): of a region without pixels the longer side still says where its tile is long.
-    const bool along_x = region.x1 - region.x0 >= region.y1 - region.y0;
+    const std::size_t axis = longer_axis(region);
     const SplitServers split(servers.size());
-    sort_along(items, along_x ? 0 : 1);
+    sort_along(items, axis);
     const std::span<Side> sides(sides_.data(), items.size());
     std::fill(sides.begin(), sides.end(), Side::kNone);
-    const SweepLines<int> ends = along_x ? SweepLines<int>{region.x0, region.x1}  //
-                                         : SweepLines<int>{region.y0, region.y1};
-    const SweepLines<int> lines =
-        sweep(std::span<const std::uint32_t>(from_left_.data(), items.size()),
-              std::span<const std::uint32_t>(from_right_.data(), items.size()),
-              Split{items, along_x ? std::size_t{0} : std::size_t{1}}, split, ends, sides);
+    const SweepLines<int> ends{low_of(region, axis), high_of(region, axis)};
+    const SweepLines<int> lines = sweep(std::span<const std::uint32_t>(from_left_.data(), items.size()),
+                                        std::span<const std::uint32_t>(from_right_.data(), items.size()),
+                                        Split{items, axis}, split, ends, sides);
     const int cut = cut_between(lines, ends.left, ends.right);
     const std::size_t left_items = separate(items);
 
-    Rect left_region = region;
-    Rect right_region = region;
-    Rect left_tile = tile;
-    Rect right_tile = tile;
-    (along_x ? left_region.x1 : left_region.y1) = cut;
-    (along_x ? right_region.x0 : right_region.y0) = cut;
-    (along_x ? left_tile.x1 : left_tile.y1) = cut;
-    (along_x ? right_tile.x0 : right_tile.y0) = cut;
-    divide(items.first(left_items), left_region, left_tile, servers.first(split.left));
-    divide(items.subspan(left_items), right_region, right_tile, servers.subspan(split.left));
+    const Halves regions(region, axis, cut);
+    const Halves tiles(tile, axis, cut);
+    divide(items.first(left_items), regions.left, tiles.left, servers.first(split.left));
+    divide(items.subspan(left_items), regions.right, tiles.right, servers.subspan(split.left));
 }
 
 void Hybrid::sort_along(std::span<const Item> items, std::size_t axis) {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "client/partition/partitioner.h"
+#include "client/partition/division.h"
 #include "client/partition/sweep.h"
 
 namespace swath {
@@ -23,14 +23,6 @@ class Hybrid final : public Partitioner {
     FramePlan partition(const PartitionInput& input) override;
 
   private:
-    // An object on its way down the recursion; [0] is x, [1] is y.
-    struct Item {
-        int low[2];
-        int high[2];
-        std::uint64_t work;
-        ObjectId id;
-        bool visible;
-    };
     struct Split;  // the items of one split along its axis, as sweep() asks for them
 
     void divide(std::span<Item> items, const Rect& region, const Rect& tile, std::span<ServerShare> servers);

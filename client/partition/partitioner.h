@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "client/partition/projection.h"
@@ -31,11 +32,17 @@ class Partitioner {
 
 enum class Algorithm {
     kHybrid,    // tiles and groups from one sweep of the screen, every frame (Samanta 2000, section 5)
+    kMahd,      // sort-first: tiles cut along a mesh of loads, objects on every tile that they overlap
+    kKdSplit,   // sort-first: tiles cut where the work of overlapping objects is equal (Samanta 1999)
     kSortLast,  // groups made once in model space, interleaved tiles (Samanta 2000, section 7.4)
 };
 
-// "hybrid", "sort-last".
+// The one list, in the order in which they are named everywhere.
+std::span<const Algorithm> all_algorithms();
+// "hybrid", "mahd", "kd-split", "sort-last".
 std::string_view name_of(Algorithm algorithm);
+// All names, with commas between.
+std::string algorithm_names();
 Result<Algorithm> parse_algorithm(std::string_view name);
 Grouping grouping_of(Algorithm algorithm);
 

@@ -31,7 +31,7 @@ const std::vector<Case> kCases{
     {"UnknownAlgorithm",
      "swath-client",
      {"builtin:knot", "--algorithm", "magic"},
-     {"algorithm", "magic", "hybrid", "sort-last"}},
+     {"algorithm", "magic", "hybrid, mahd, kd-split, sort-last"}},
     {"UnknownRenderer",
      "swath-client",
      {"builtin:knot", "--renderer", "vulkan"},

@@ -186,13 +186,15 @@ TEST_F(Output, TimelineThatCannotBeWrittenIsNamed) {
 
 TEST_F(Output, HelpIsOnePageAndNamesEveryFlag) {
     const std::map<std::string, std::vector<std::string>> flags{
-        {"swath-client", {"MODEL",           "--local",      "--servers",    "--display",      "--single",
-                          "--algorithm",     "--renderer",   "--objects",    "--size",         "--frames",
-                          "--path",          "--seed",       "--zoom",       "--octree-depth", "--threads",
-                          "--out",           "--format",     "--quiet",      "--timeline",     "--connect-s",
-                          "--background",    "hybrid",       "sort-last",    "osmesa",         "egl",
-                          "--in-flight",     "--silence-ms", "builtin:knot", "orbit",          "random",
-                          "builtin:spheres", "builtin:town", "--help"}},
+        {"swath-client", {"MODEL",           "--local",        "--servers",  "--display",
+                          "--single",        "--algorithm",    "--renderer", "--objects",
+                          "--size",          "--frames",       "--path",     "--seed",
+                          "--zoom",          "--octree-depth", "--threads",  "--out",
+                          "--format",        "--quiet",        "--timeline", "--connect-s",
+                          "--background",    "hybrid",         "mahd",       "kd-split",
+                          "sort-last",       "osmesa",         "egl",        "--in-flight",
+                          "--silence-ms",    "builtin:knot",   "orbit",      "random",
+                          "builtin:spheres", "builtin:town",   "--help"}},
         {"swath-server",
          {"--listen", "--cache", "--max-model-mib", "--threads", "--quiet", "--lifeline", "--silence-ms",
           "--help"}},

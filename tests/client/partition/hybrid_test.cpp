@@ -9,17 +9,13 @@
 namespace swath {
 namespace {
 
+using test::seen;
+using test::unseen;
 using Group = std::vector<ObjectId>;
 
 FramePlan partition(const std::vector<ProjectedObject>& objects, int width, int height, std::size_t servers) {
-    View view;
-    view.width = width;
-    view.height = height;
-    return Hybrid().partition(test::input_of(objects, view, servers));
+    return test::partition<Hybrid>(objects, width, height, servers);
 }
-
-ProjectedObject seen(const Rect& box, std::uint64_t work) { return {box, work, true}; }
-ProjectedObject unseen(int x, int y) { return {{x, y, x + 1, y + 1}, 0, false}; }
 
 // Figure 3 of the paper: left takes 0 (a tie), right takes 3, left takes 1 (a tie), right takes 2. The lines
 // end at 40 and 35, the cut is half-way.

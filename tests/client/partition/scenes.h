@@ -70,17 +70,42 @@ inline PartitionInput input_of(const std::vector<ProjectedObject>& objects, cons
     return {.frame = 42, .view = view, .objects = objects, .servers = servers};
 }
 
+inline ProjectedObject seen(const Rect& box, std::uint64_t work) { return {box, work, true}; }
+inline ProjectedObject unseen(int x, int y) { return {{x, y, x + 1, y + 1}, 0, false}; }
+
+// A plan by a partitioner that looks at the screen alone.
+template <class P>
+FramePlan partition(const std::vector<ProjectedObject>& objects, int width, int height, std::size_t servers) {
+    View view;
+    view.width = width;
+    view.height = height;
+    return P().partition(input_of(objects, view, servers));
+}
+
+inline double work_of(const ServerShare& share, const std::vector<ProjectedObject>& objects) {
+    double work = 0;
+    for (const ObjectId id : share.group) work += static_cast<double>(objects[id].work);
+    return work;
+}
+
 // Largest work of a server over the mean, minus one.
 inline double imbalance(const FramePlan& plan, const std::vector<ProjectedObject>& objects) {
     double largest = 0;
     double sum = 0;
     for (const ServerShare& share : plan.servers) {
-        double work = 0;
-        for (const ObjectId id : share.group) work += static_cast<double>(objects[id].work);
-        largest = std::max(largest, work);
-        sum += work;
+        largest = std::max(largest, work_of(share, objects));
+        sum += work_of(share, objects);
     }
     return largest * static_cast<double>(plan.servers.size()) / sum - 1;
+}
+
+// The work of all servers over the work that there is.
+inline double overlap(const FramePlan& plan, const std::vector<ProjectedObject>& objects) {
+    double done = 0;
+    double all = 0;
+    for (const ServerShare& share : plan.servers) done += work_of(share, objects);
+    for (const ProjectedObject& object : objects) all += static_cast<double>(object.work);
+    return done / all;
 }
 
 }  // namespace swath::test
