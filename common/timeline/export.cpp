@@ -8,6 +8,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "common/base/csv.h"
+
 namespace swath {
 namespace {
 
@@ -22,16 +24,6 @@ Nanoseconds earliest_begin(std::span<const FrameTimeline> frames) {
 // A double holds whole nanoseconds exactly for 104 days, so six decimals of a millisecond are exact.
 double milliseconds(Nanoseconds t) { return static_cast<double>(t.count()) / 1e6; }
 double microseconds(Nanoseconds t) { return static_cast<double>(t.count()) / 1e3; }
-
-std::string csv_field(std::string_view text) {
-    if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + '"';
-}
 
 // A span on its way to a track.
 struct PlacedSpan {

@@ -1,6 +1,10 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/result.h"
 
 namespace swath::sim {
 
@@ -20,23 +24,23 @@ struct BufferAccess {
     double write_s(double pixels) const { return latency_s + pixels / write_pixels_per_s; }
 };
 
-// What the simulator knows of a cluster: the speed of its machines and its network. Values are SI units;
-// sim/hardware/README.md documents the file format.
+// What the simulator knows of a cluster: the speed of its machines and its network. Values are SI units, 0
+// where the profile says nothing and needs to say nothing. README.md documents the file format.
 struct Hardware {
-    std::string name;
-    std::string about;
+    std::string name;   // of the profile: a built-in's, or the file's without .toml
+    std::string about;  // one line
 
     struct Network {
         double latency_s = 0;
         double bytes_per_s = 0;                  // of each machine's interface, each way
         std::optional<double> core_bytes_per_s;  // of the switch; without: no limit
-        double swath_bytes_per_pixel = 0;        // colour and depth, between servers
-        double tile_bytes_per_pixel = 0;         // colour, to the display
+        double swath_bytes_per_pixel = 0;        // all that a pixel sent between servers costs
+        double tile_bytes_per_pixel = 0;         // ... and one sent to the display
         double active_share = 1;                 // of the pixels in a rectangle to send that are sent
     } network;
 
     struct Client {
-        double transform_s = 0;         // an object's box to the screen
+        double transform_s = 0;         // per object: its box to the screen
         double partition_server_s = 0;  // per object and server: a partition that is linear in the servers
         double partition_level_s = 0;   // per object and log2(servers)
     } client;
@@ -47,14 +51,24 @@ struct Hardware {
         bool culls = false;  // draws only what is on the screen
         Compositing compositing = Compositing::kGraphics;
         BufferAccess colour;
-        BufferAccess depth;
-        double pack_pixels_per_s = 0;   // host compositing: coding swaths, gathering tiles
-        double merge_pixels_per_s = 0;  // host compositing: depth test of received pixels
+        BufferAccess depth;             // with the object ids, where they are sent; never written by kHost
+        double pack_pixels_per_s = 0;   // kHost: coding swaths, gathering tiles
+        double merge_pixels_per_s = 0;  // kHost: depth test of received pixels
     } server;
 
     struct Display {
-        BufferAccess colour;  // only written
+        BufferAccess colour;  // only written: received tiles into the picture
     } display;
 };
+
+// A profile in TOML. Errors name the profile, the line and the key, and say what was expected.
+Result<Hardware> parse_hardware(std::string_view toml, std::string name);
+
+// A built-in profile, or the file when the name ends in ".toml".
+Result<Hardware> find_hardware(const std::string& name_or_file);
+std::vector<std::string> builtin_hardware();
+
+// Every value with its unit and its meaning, a line each, for people.
+std::string explain(const Hardware& hardware);
 
 }  // namespace swath::sim

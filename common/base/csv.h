@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/result.h"
+
+namespace swath {
+
+// The text as a field of a table with commas (RFC 4180): quoted where it has to be.
+std::string csv_field(std::string_view text);
+
+struct CsvRecord {
+    std::size_t line = 0;  // that it begins on, from 1
+    std::vector<std::string> fields;
+    bool operator==(const CsvRecord&) const = default;
+};
+
+// The header and the records of a table, each with as many fields as the header. Lines end with \n or \r\n,
+// the last one too: a file that was cut off is an error, like quotes that RFC 4180 does not allow. Errors
+// name the source and the line.
+Result<std::vector<CsvRecord>> parse_csv(std::string_view text, std::string_view header,
+                                         std::string_view source);
+
+}  // namespace swath
