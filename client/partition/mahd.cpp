@@ -7,10 +7,10 @@
 namespace swath {
 namespace {
 
-// The edge of a cell. The paper does not say; 16 reproduces its Table 1 best, 32 does not.
-constexpr int kCellPixels = 16;
 // Loads stay below 2^53, so that times kMaxServers they fit in 64 bits.
 constexpr int kLoadBits = 53;
+
+constexpr int kCellPixels = Mahd::kCellPixels;
 
 // The cells that a rectangle of pixels touches.
 Rect cells_of(const Rect& pixels) {

@@ -31,8 +31,7 @@ void Progress::step() {
     const double seconds = std::chrono::duration<double>(now - begin_).count();
     const double rate = seconds > 0 ? static_cast<double>(done_) / seconds : 0;
     const std::string left =
-        last || rate <= 0 ? ""
-                          : fmt::format(", {:.0f} s left", static_cast<double>(total_ - done_) / rate);
+        last || rate <= 0 ? "" : fmt::format(", {:.0f} s left", static_cast<double>(total_ - done_) / rate);
     const std::size_t full = kBar * done_ / total_;
     const std::string line = fmt::format("[{}{}] {}/{} {}, {:.1f} a second{}", std::string(full, '#'),
                                          std::string(kBar - full, '.'), done_, total_, what_, rate, left);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "client/partition/mahd.h"
 #include "common/base/check.h"
 #include "sim/cost/client_time.h"
 
@@ -25,6 +26,17 @@ FramePlan with_whole_contents(const FramePlan& plan, std::span<const ProjectedOb
     return whole;
 }
 
+// What tiles are cut from: the bounds of all boxes, with MAHD of the cells of its mesh that they touch.
+Rect region_of(const FramePlan& plan, std::span<const ProjectedObject> objects, Algorithm algorithm) {
+    Rect region;
+    for (const ProjectedObject& object : objects) region = bounding(region, object.box);
+    if (algorithm != Algorithm::kMahd || region.empty()) return region;
+    constexpr int kCell = Mahd::kCellPixels;
+    return intersect({region.x0 / kCell * kCell, region.y0 / kCell * kCell,
+                      ((region.x1 - 1) / kCell + 1) * kCell, ((region.y1 - 1) / kCell + 1) * kCell},
+                     plan.view.viewport());
+}
+
 void add_final_read(const Rect& read, const Rect& sent, const Hardware& hardware, ServerTimes& server,
                     PaperFrame& frame) {
     if (!read.empty()) server.final_s += hardware.server.colour.read_s(pixels(read));
@@ -36,8 +48,7 @@ void add_final_read(const Rect& read, const Rect& sent, const Hardware& hardware
 PaperFrame paper_frame(const FramePlan& plan, std::span<const ProjectedObject> objects, Algorithm algorithm,
                        const Hardware& hardware) {
     const FramePlan whole = with_whole_contents(plan, objects, algorithm);
-    Rect region;
-    for (const ProjectedObject& object : objects) region = bounding(region, object.box);
+    const Rect region = region_of(plan, objects, algorithm);
 
     PaperFrame frame;
     frame.client_s = client_s(objects.size(), plan.servers.size(), algorithm, hardware);
@@ -94,7 +105,7 @@ void PaperMeans::add(const PaperMeans& other) {
     display_s_ += other.display_s_;
 }
 
-std::vector<Row> PaperMeans::table1(const Row& of, double ideal_s) const {
+std::vector<Row> PaperMeans::table1(const Row& of, Grouping grouping, double ideal_s) const {
     CHECK(frames_ > 0);
     const double to_ms = 1e3 / frames_;
     const double total_ms = longest_s_ * to_ms;
@@ -104,9 +115,12 @@ std::vector<Row> PaperMeans::table1(const Row& of, double ideal_s) const {
         rows.push_back({of.algorithm, of.model, of.servers, column, value});
     };
     add("ideal_render", ideal_ms);
-    add("overlap_render", mean_.render_s * to_ms - ideal_ms);
-    add("pixel_read", mean_.read_s * to_ms);
-    add("pixel_write", mean_.write_s * to_ms);
+    if (grouping == Grouping::kAtLeastOnce) {
+        add("overlap_render", mean_.render_s * to_ms - ideal_ms);
+    } else {
+        add("pixel_read", mean_.read_s * to_ms);
+        add("pixel_write", mean_.write_s * to_ms);
+    }
     add("final_read", mean_.final_s * to_ms);
     add("imbalance", total_ms - mean_.total_s() * to_ms);
     add("server_total", total_ms);

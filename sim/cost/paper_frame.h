@@ -30,7 +30,8 @@ struct PaperFrame {
 // paper leaves open is settled as its Table 1 shows:
 // - every swath is read and written by two operations, one a buffer, each with its latency; with sort-last
 //   every square of the grid is a swath of its own;
-// - tiles are cut from the region that the objects' boxes span, not from the whole screen;
+// - tiles are cut from the region that the objects' boxes span, with MAHD from the cells of its mesh that
+//   they touch, not from the whole screen;
 // - the hybrid reads and sends whole tiles; sort-first reads what its objects' boxes cover and sends the
 //   tile; sort-last reads and sends of every square the bounds of what was drawn there.
 // Thread-safe.
@@ -44,8 +45,9 @@ class PaperMeans {
     void add(const PaperMeans& other);
 
     // `ideal_s` is what a server would take if the model's polygons were shared without any overhead. Rows
-    // are named as in published/table1.csv; times in ms.
-    std::vector<Row> table1(const Row& of, double ideal_s) const;
+    // are named as in published/table1.csv and are those of `of`; times in ms. Without what cannot be: no
+    // overlap if every object has one server, no exchange with sort-first.
+    std::vector<Row> table1(const Row& of, Grouping grouping, double ideal_s) const;
     // The stages' means that Table 1 does not have: client, and effective_frame (the slowest stage).
     std::vector<Row> stages(const Row& of) const;
 
