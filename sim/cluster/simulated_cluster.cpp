@@ -252,9 +252,9 @@ class Cluster {
 
 }  // namespace
 
-const ResourceUse& ClusterRunCosts::bottleneck() const {
-    return *std::max_element(use.begin(), use.end(),
-                             [](const ResourceUse& a, const ResourceUse& b) { return a.share < b.share; });
+ResourceUse busiest(std::span<const ResourceUse> use) {
+    CHECK(!use.empty());
+    return *std::ranges::max_element(use, {}, &ResourceUse::share);
 }
 
 ClusterRunCosts simulate(const ClusterScenario& scenario) {

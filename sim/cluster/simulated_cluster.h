@@ -31,6 +31,7 @@ struct ResourceUse {
     std::string resource;  // "server draw", "display network", ...
     double share = 0;
 };
+ResourceUse busiest(std::span<const ResourceUse> use);  // the first of equals; `use` is not empty
 
 struct ClusterRunCosts {
     double frame_s = 0;    // between one complete picture and the next, over the whole run
@@ -39,7 +40,6 @@ struct ClusterRunCosts {
     std::vector<ResourceUse> use;          // in a fixed order
     std::vector<FrameTimeline> timelines;  // if wanted
     std::uint64_t events = 0;
-    const ResourceUse& bottleneck() const;  // the busiest
 };
 
 // Simulates client, servers, network and display, all at work on their frames at once. The machines are

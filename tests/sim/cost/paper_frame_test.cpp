@@ -31,9 +31,8 @@ View screen() {
 // Two servers whose groups overlap by [18,22) x [2,8): the tiles meet at 20.
 struct Overlapping {
     std::vector<ProjectedObject> objects{{{4, 2, 22, 8}, 7, true}, {{18, 2, 36, 8}, 5, true}};
-    FramePlan plan{0,
-                   screen(),
-                   {{{0}, {{0, 0, 20, 10}}, {4, 2, 22, 8}}, {{1}, {{20, 0, 40, 10}}, {18, 2, 36, 8}}}};
+    FramePlan plan{
+        0, screen(), {{{0}, {{0, 0, 20, 10}}, {4, 2, 22, 8}}, {{1}, {{20, 0, 40, 10}}, {18, 2, 36, 8}}}};
 };
 
 TEST(PaperFrame, OfAHybridReadsAndWritesSwathsBufferByBufferAndSendsWholeTiles) {
@@ -104,8 +103,8 @@ TEST(PaperFrame, CountsObjectsThatNobodySees) {
     scene.plan.servers[1].group.push_back(2);  // content is, as in every plan, of what is seen
     const PaperFrame frame = paper_frame(scene.plan, scene.objects, Algorithm::kHybrid, slow());
     EXPECT_EQ(frame.servers[1].render_s, 16);
-    EXPECT_EQ(frame.servers[1].read_s, 2 * (100 + 2 * 8));     // its group now reaches down to y 0
-    EXPECT_EQ(frame.servers[0].final_s, 100 + 16 * 8);         // and so does the region
+    EXPECT_EQ(frame.servers[1].read_s, 2 * (100 + 2 * 8));  // its group now reaches down to y 0
+    EXPECT_EQ(frame.servers[0].final_s, 100 + 16 * 8);      // and so does the region
 }
 
 TEST(ClientTime, GrowsWithServersUnlessGroupsAreStatic) {

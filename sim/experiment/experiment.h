@@ -1,0 +1,73 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client/partition/partitioner.h"
+#include "common/geometry/camera.h"
+#include "sim/cluster/simulated_cluster.h"
+#include "sim/cost/paper_frame.h"
+#include "sim/experiment/model.h"
+#include "sim/hardware/hardware.h"
+#include "sim/table/table.h"
+
+namespace swath::sim {
+
+// One row of a study: a model, partitioned in one way for a number of servers, on some hardware.
+struct Experiment {
+    const StudyModel* model = nullptr;
+    const Paths* paths = nullptr;
+    const Hardware* hardware = nullptr;
+    Algorithm algorithm = Algorithm::kHybrid;
+    std::size_t servers = 1;
+    int width = 1280;
+    int height = 960;
+    std::size_t frames_in_flight = 3;
+    bool full = true;  // also simulate machines and network
+    // What the table calls it.
+    std::string algorithm_name;
+    std::string model_name;
+    Row label() const { return {algorithm_name, model_name, servers, {}, 0}; }
+};
+
+// Means of simulated runs.
+class FullMeans {
+  public:
+    void add(const ClusterRunCosts& run);
+    void add(const FullMeans& other);
+    bool empty() const { return runs_ == 0; }
+
+    double frame_s() const { return frame_s_ / runs_; }
+    double latency_s() const { return latency_s_ / runs_; }
+    double speedup() const { return frame_s_ > 0 ? single_s_ / frame_s_ : 0; }
+    std::vector<ResourceUse> use() const;
+    ResourceUse bottleneck() const;  // the busiest
+    std::uint64_t events() const { return events_; }
+
+    // full_frame and full_latency in ms, full_speedup, and busy_RESOURCE in per cent.
+    std::vector<Row> rows(const Row& of) const;
+
+  private:
+    double runs_ = 0;
+    double frame_s_ = 0;
+    double latency_s_ = 0;
+    double single_s_ = 0;
+    std::vector<ResourceUse> use_;  // sums
+    std::uint64_t events_ = 0;
+};
+
+struct Outcome {
+    PaperMeans paper;
+    FullMeans full;  // empty if not asked for
+};
+std::vector<Row> table1_rows(const Experiment& experiment, const Outcome& outcome);
+std::vector<Row> all_rows(const Experiment& experiment, const Outcome& outcome);
+
+// Runs experiments on `threads` threads (at least 1); `on_done` is called with the place of each when it is
+// complete, from one thread at a time. What comes out does not depend on the number of threads.
+std::vector<Outcome> run_experiments(std::span<const Experiment> experiments, std::size_t threads,
+                                     const std::function<void(std::size_t, const Outcome&)>& on_done);
+
+}  // namespace swath::sim
