@@ -36,10 +36,11 @@ std::vector<ProjectedObject> project(std::span<const Object> objects, const View
                                      Accounting accounting) {
     CHECK(view.width > 0);
     CHECK(view.height > 0);
+    const ScreenBounds bounds(view);
     std::vector<ProjectedObject> projected(objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
         ProjectedObject& object = projected[i];
-        object.box = screen_bounds(objects[i].box, view);
+        object.box = bounds.of(objects[i].box);
         object.visible = !object.box.empty();
         if (object.visible || accounting == Accounting::kPaper) object.work = objects[i].triangle_count;
         if (!object.visible) object.box = border_pixel(objects[i].box, view);

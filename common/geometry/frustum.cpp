@@ -12,11 +12,25 @@ constexpr double kFloatLoss = 1e-6;
 // snapping) cannot reach the next one.
 constexpr double kHarmlessPixels = 0.25;
 
-// The eight corners of a box in clip space, one array a coordinate so that the compiler makes vectors of
-// them.
+// Of a box's eight corners, one number each. In arrays and halved in steps so that the compiler makes
+// vectors.
+using Eight = std::array<double, 8>;
+
 struct Corners {
-    std::array<double, 8> x, y, z, w;
+    Eight x, y, z, w;  // clip space
 };
+
+double lowest(const Eight& of) {
+    std::array<double, 4> four;
+    for (std::size_t k = 0; k < 4; ++k) four[k] = std::min(of[k], of[k + 4]);
+    return std::min(std::min(four[0], four[2]), std::min(four[1], four[3]));
+}
+
+double highest(const Eight& of) {
+    std::array<double, 4> four;
+    for (std::size_t k = 0; k < 4; ++k) four[k] = std::max(of[k], of[k + 4]);
+    return std::max(std::max(four[0], four[2]), std::max(four[1], four[3]));
+}
 
 Corners project_corners(const glm::dmat4& matrix, const glm::dvec3& low, const glm::dvec3& size) {
     const glm::dvec4 first = matrix * glm::dvec4(low, 1.0);
@@ -26,7 +40,7 @@ Corners project_corners(const glm::dmat4& matrix, const glm::dvec3& low, const g
         const double dz = matrix[2][row] * size.z;
         const double at = first[row];
         const double up = at + dy;
-        return std::array<double, 8>{at, at + dx, up, up + dx, at + dz, at + dx + dz, up + dz, up + dx + dz};
+        return Eight{at, at + dx, up, up + dx, at + dz, at + dx + dz, up + dz, up + dx + dz};
     };
     return {corners_of(0), corners_of(1), corners_of(2), corners_of(3)};
 }
@@ -49,6 +63,17 @@ struct Extent {
     }
 };
 
+// Of all corners, without branches: nearly every box is in front of the eye.
+Extent extent_of(const Corners& corners) {
+    Eight x, y;
+    for (std::size_t k = 0; k < 8; ++k) {
+        const double scale = 1.0 / corners.w[k];
+        x[k] = corners.x[k] * scale;
+        y[k] = corners.y[k] * scale;
+    }
+    return {lowest(x), lowest(y), highest(x), highest(y), lowest(corners.w)};
+}
+
 // The pixel of a normalised coordinate, moved by `shift` pixels, within [-1, pixels].
 int pixel_of(double ndc, int pixels, double shift) {
     // Clamp before the conversion: a box near the eye projects to numbers that no int holds.
@@ -66,32 +91,37 @@ Frustum make_frustum(const View& view) {
              rows[3] - rows[2]}};
 }
 
-Rect screen_bounds(const Box& box, const View& view) {
+Rect screen_bounds(const Box& box, const View& view) { return ScreenBounds(view).of(box); }
+
+ScreenBounds::ScreenBounds(const View& view)
+    : viewport_(view.viewport()),
+      matrix_(view.clip_from_model),
+      magnitudes_(glm::abs(matrix_[0]), glm::abs(matrix_[1]), glm::abs(matrix_[2]), glm::abs(matrix_[3])) {}
+
+Rect ScreenBounds::of(const Box& box) const {
     if (box.empty()) return {};
-    const glm::dmat4 matrix(view.clip_from_model);
     const glm::dvec3 low_corner(box.min);
     const glm::dvec3 high_corner(box.max);
     const glm::dvec3 reach = glm::max(glm::abs(low_corner), glm::abs(high_corner));
-    const glm::dvec4 loss = kFloatLoss * (glm::abs(matrix[0]) * reach.x + glm::abs(matrix[1]) * reach.y +
-                                          glm::abs(matrix[2]) * reach.z + glm::abs(matrix[3]));
+    const glm::dvec4 loss = kFloatLoss * (magnitudes_[0] * reach.x + magnitudes_[1] * reach.y +
+                                          magnitudes_[2] * reach.z + magnitudes_[3]);
     const double depth_loss = loss.z + loss.w;
-    const Corners corners = project_corners(matrix, low_corner, high_corner - low_corner);
+    const Corners corners = project_corners(matrix_, low_corner, high_corner - low_corner);
 
     // How far inside the near plane, or as good as inside when computed in single precision.
-    std::array<double, 8> inside;
-    int in_front = 0;
-    int beyond = 0;
+    Eight inside;
+    Eight beyond;
     for (std::size_t k = 0; k < 8; ++k) {
         inside[k] = corners.z[k] + corners.w[k] + depth_loss;
-        in_front += inside[k] >= 0 ? 1 : 0;
-        beyond += corners.z[k] - corners.w[k] > depth_loss ? 1 : 0;
+        beyond[k] = corners.z[k] - corners.w[k];
     }
-    if (in_front == 0 || beyond == 8) return {};
+    if (highest(inside) < 0 || lowest(beyond) > depth_loss) return {};
 
+    const bool crosses = lowest(inside) < 0;
     Extent extent;
-    for (std::size_t k = 0; k < 8; ++k) {
+    if (!crosses) extent = extent_of(corners);
+    for (std::size_t k = 0; k < 8 && crosses; ++k) {
         if (inside[k] >= 0) extent.add(corners.x[k], corners.y[k], corners.w[k]);
-        if (in_front == 8) continue;
         for (const std::size_t axis : {1u, 2u, 4u}) {  // the edge from k along each axis, once
             const std::size_t m = k | axis;
             if (m == k || (inside[k] >= 0) == (inside[m] >= 0)) continue;
@@ -101,20 +131,20 @@ Rect screen_bounds(const Box& box, const View& view) {
         }
     }
     // The near plane cannot be told from the eye: the box may show anywhere.
-    if (!(extent.nearest_w > loss.w)) return view.viewport();
+    if (!(extent.nearest_w > loss.w)) return viewport_;
 
-    const double crossing = in_front < 8 ? 1.0 : 0.0;
+    const double crossing = crosses ? 1.0 : 0.0;
     const auto margin = [&](double coordinate_loss, int pixels) {
         const double lost = (coordinate_loss + 2 * loss.w) / extent.nearest_w * 0.5 * pixels;
         return lost > kHarmlessPixels ? std::ceil(lost) + crossing : crossing;
     };
-    const double margin_x = margin(loss.x, view.width);
-    const double margin_y = margin(loss.y, view.height);
-    const Rect rect{pixel_of(extent.low_x, view.width, -margin_x),
-                    pixel_of(extent.low_y, view.height, -margin_y),
-                    pixel_of(extent.high_x, view.width, margin_x) + 1,
-                    pixel_of(extent.high_y, view.height, margin_y) + 1};
-    return intersect(rect, view.viewport());
+    const double margin_x = margin(loss.x, viewport_.x1);
+    const double margin_y = margin(loss.y, viewport_.y1);
+    const Rect rect{pixel_of(extent.low_x, viewport_.x1, -margin_x),
+                    pixel_of(extent.low_y, viewport_.y1, -margin_y),
+                    pixel_of(extent.high_x, viewport_.x1, margin_x) + 1,
+                    pixel_of(extent.high_y, viewport_.y1, margin_y) + 1};
+    return intersect(rect, viewport_);
 }
 
 }  // namespace swath

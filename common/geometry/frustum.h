@@ -38,4 +38,16 @@ inline bool outside(const Frustum& frustum, const Box& box) {
 // a pixel.
 Rect screen_bounds(const Box& box, const View& view);
 
+// screen_bounds() of many boxes in one view: what depends on the view alone is made once.
+class ScreenBounds {
+  public:
+    explicit ScreenBounds(const View& view);
+    Rect of(const Box& box) const;
+
+  private:
+    Rect viewport_;
+    glm::dmat4 matrix_;      // clip from model
+    glm::dmat4 magnitudes_;  // of its elements
+};
+
 }  // namespace swath

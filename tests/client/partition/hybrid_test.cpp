@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <random>
 
 #include "tests/client/partition/scenes.h"
 
@@ -110,6 +111,43 @@ TEST(Hybrid, ExchangesNarrowSwaths) {
     const double fine = exchanged(partition(grid_of(10), 1280, 960, 16));
     EXPECT_LT(coarse, 0.25);
     EXPECT_LT(fine, 0.5 * coarse);
+}
+
+// Section 6 of the paper in numbers. Its equations are lost in our copy of the text; derived again from what
+// it says: M equal squares of edge B lie evenly on P pixels, N servers have square tiles of edge s =
+// sqrt(P/N). A swath is as wide as a box, B, and we cut in its middle, so a server's group reaches B/2 beyond
+// its tile: four rectangles of B/2 by s along the sides and four corner squares of edge B/2,
+//     4 s B/2 + 4 (B/2)^2 = 2 B sqrt(P/N) + B^2 pixels
+// that one server sends in a frame. This reading knows no border of the screen, where nothing is sent, so it
+// is held against the servers whose tiles do not touch it.
+TEST(Hybrid, SendsAsManyPixelsAsThePaperSaysOnAverage) {
+    constexpr int kEdge = 1024;
+    std::mt19937 random(6);
+    for (const int box : {8, 16, 24})
+        for (const int root : {4, 8, 16}) {
+            std::vector<ProjectedObject> squares;
+            for (int i = 0; i < 60'000; ++i) {
+                const auto at = [&] { return static_cast<int>(random() % (kEdge - box + 1)); };
+                const int x = at();
+                const int y = at();
+                squares.push_back(seen({x, y, x + box, y + box}, 1));
+            }
+            const FramePlan plan = partition(squares, kEdge, kEdge,
+                                             static_cast<std::size_t>(root) * static_cast<std::size_t>(root));
+            const auto within = [&](std::size_t server) {
+                const Rect& tile = plan.servers[server].tile.front();
+                return tile.x0 > 0 && tile.y0 > 0 && tile.x1 < kEdge && tile.y1 < kEdge;
+            };
+            int servers = 0;
+            std::int64_t pixels = 0;
+            for (std::size_t s = 0; s < plan.servers.size(); ++s) servers += within(s) ? 1 : 0;
+            for (const Transfer& transfer : transfers(plan))
+                if (within(index(transfer.from))) pixels += area(transfer.region);
+            ASSERT_EQ(servers, (root - 2) * (root - 2));
+            const double expected = 2.0 * box * kEdge / root + box * box;
+            EXPECT_NEAR(static_cast<double>(pixels) / servers, expected, 0.1 * expected)
+                << box << " pixels, " << root * root << " servers";
+        }
 }
 
 }  // namespace

@@ -120,6 +120,42 @@ TEST(ScreenBounds, StayWithinHalfAPixelOfSinglePrecisionPoints) {
     EXPECT_GT(seen, 20'000);
 }
 
+TEST(ScreenBounds, AreThoseOfTheCornersForEveryBoxOfAView) {
+    Scene scene(9);
+    int in_full_view = 0;
+    for (int round = 0; round < 3'000; ++round) {
+        const View view = scene.view();
+        const ScreenBounds bounds(view);
+        for (int k = 0; k < 20; ++k) {
+            const Box box = scene.box();
+            const Rect found = bounds.of(box);
+            ASSERT_EQ(found, screen_bounds(box, view));
+            glm::dvec2 low(1e9);
+            glm::dvec2 high(-1e9);
+            double nearest = 1e9;
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::dvec3 p((corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
+                                   (corner & 4 ? box.max : box.min).z);
+                const glm::dvec4 c = glm::dmat4(view.clip_from_model) * glm::dvec4(p, 1);
+                const glm::dvec2 at = (glm::dvec2(c) / c.w * 0.5 + 0.5) * glm::dvec2(view.width, view.height);
+                low = glm::min(low, at);
+                high = glm::max(high, at);
+                nearest = std::min({nearest, c.w, c.z + c.w});
+            }
+            // Close to the eye there are margins.
+            if (nearest < 0.1 || low.x < 1 || low.y < 1 || high.x > view.width - 1 ||
+                high.y > view.height - 1 || found.empty())
+                continue;
+            ++in_full_view;
+            ASSERT_NEAR(found.x0, std::floor(low.x), 1);
+            ASSERT_NEAR(found.y0, std::floor(low.y), 1);
+            ASSERT_NEAR(found.x1, std::floor(high.x) + 1, 1);
+            ASSERT_NEAR(found.y1, std::floor(high.y) + 1, 1);
+        }
+    }
+    EXPECT_GT(in_full_view, 2'000);
+}
+
 TEST(ScreenBounds, AreTightForABoxInFullView) {
     Camera camera;
     camera.eye = {0, 0, 10};
