@@ -58,6 +58,7 @@ void FlowNetwork::send(std::size_t from, std::size_t to, double bytes, EventQueu
     CHECK(to < bytes_in_.size());
     CHECK(bytes >= 0);
     CHECK(std::isfinite(bytes));
+    CHECK(static_cast<bool>(arrived));
     if (from != to) {
         bytes_out_[from] += bytes;
         bytes_in_[to] += bytes;
@@ -67,7 +68,6 @@ void FlowNetwork::send(std::size_t from, std::size_t to, double bytes, EventQueu
         events_.after(latency_, std::move(arrived));
         return;
     }
-    CHECK(static_cast<bool>(arrived));
     Index flow = static_cast<Index>(flows_.size());
     if (free_flows_.empty()) {
         flows_.emplace_back();
