@@ -17,9 +17,12 @@ struct Suffix {
 };
 
 constexpr std::array kTimes{Suffix{"ns", 1e-9}, Suffix{"us", 1e-6}, Suffix{"ms", 1e-3}, Suffix{"s", 1}};
-constexpr std::array kBandwidths{Suffix{"B/s", 1},           Suffix{"kB/s", 1e3},
-                                 Suffix{"MB/s", 1e6},        Suffix{"GB/s", 1e9},
-                                 Suffix{"Mbit/s", 1e6 / 8, false}, Suffix{"Gbit/s", 1e9 / 8, false}};
+constexpr std::array kBandwidths{Suffix{"B/s", 1},
+                                 Suffix{"kB/s", 1e3},
+                                 Suffix{"MB/s", 1e6},
+                                 Suffix{"GB/s", 1e9},
+                                 Suffix{"Mbit/s", 1e6 / 8, false},
+                                 Suffix{"Gbit/s", 1e9 / 8, false}};
 constexpr std::array kPixelRates{Suffix{"pixel/s", 1}, Suffix{"kpixel/s", 1e3}, Suffix{"Mpixel/s", 1e6},
                                  Suffix{"Gpixel/s", 1e9}};
 constexpr std::array kByteCounts{Suffix{"B", 1}};

@@ -8,15 +8,15 @@ namespace swath::sim {
 
 // What a number of a profile measures.
 enum class Unit {
-    kTime,            // s
-    kBandwidth,       // B/s
-    kPixelRate,       // pixel/s
-    kPolygonTime,     // s/polygon
-    kObjectTime,      // s/object
-    kServerTime,      // s/object/server
-    kLevelTime,       // s/object/level
-    kBytesPerPixel,   // B/pixel
-    kShare,           // a bare number, more than 0 and at most 1
+    kTime,           // s
+    kBandwidth,      // B/s
+    kPixelRate,      // pixel/s
+    kPolygonTime,    // s/polygon
+    kObjectTime,     // s/object
+    kServerTime,     // s/object/server
+    kLevelTime,      // s/object/level
+    kBytesPerPixel,  // B/pixel
+    kShare,          // a bare number, more than 0 and at most 1
 };
 
 // "a time", and a value of it as a profile writes it: "20 us".
