@@ -19,7 +19,7 @@ enum class Compositing {
 struct BufferAccess {
     double latency_s = 0;
     double read_pixels_per_s = 0;
-    double write_pixels_per_s = 0;
+    double write_pixels_per_s = 0;  // kHost never writes and may have none
     double read_s(double pixels) const { return latency_s + pixels / read_pixels_per_s; }
     double write_s(double pixels) const { return latency_s + pixels / write_pixels_per_s; }
 };
@@ -51,7 +51,7 @@ struct Hardware {
         bool culls = false;  // draws only what is on the screen
         Compositing compositing = Compositing::kGraphics;
         BufferAccess colour;
-        BufferAccess depth;             // with the object ids, where they are sent; never written by kHost
+        BufferAccess depth;             // with the object ids, where they are sent
         double pack_pixels_per_s = 0;   // kHost: coding swaths, gathering tiles
         double merge_pixels_per_s = 0;  // kHost: depth test of received pixels
     } server;
