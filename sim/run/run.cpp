@@ -1,0 +1,54 @@
+#include "sim/run/run.h"
+
+#include <iostream>
+
+#include "common/base/file.h"
+#include "common/timeline/export.h"
+#include "sim/run/side_by_side.h"
+#include "sim/scenario/scenario.h"
+
+namespace swath::sim {
+namespace {
+
+Status write_text(const std::string& file, const std::string& text) {
+    return write_file(file, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+Status save_timeline(const Experiment& e, const std::string& file) {
+    const auto costs = simulate({e.model->scene.objects, e.paths->front(), e.width, e.height, e.algorithm,
+                                 e.servers, e.frames_in_flight, *e.hardware, true});
+    return write_text(file, file.ends_with(".csv") ? to_csv(costs.timelines)
+                                                   : to_chrome_trace(costs.timelines));
+}
+
+}  // namespace
+
+Status run(const RunOptions& options) {
+    const bool knows_format = options.timeline.ends_with(".csv") || options.timeline.ends_with(".json");
+    if (!options.timeline.empty() && !knows_format)
+        return fail("--timeline: '{}': the name must end in .csv or .json", options.timeline);
+    const auto scenario = Scenario::load(options.scenario);
+    if (!scenario) return tl::unexpected(scenario.error());
+    const std::vector<Experiment>& experiments = scenario->experiments();
+    if (!options.timeline.empty() && experiments.size() > 1)
+        return fail("--timeline: shows one algorithm with one number of servers, not {}", experiments.size());
+
+    const std::vector<Outcome> outcomes =
+        run_experiments(experiments, options.scenario.threads, [](std::size_t, const Outcome&) {});
+    std::cout << side_by_side(experiments, outcomes);
+    if (!options.csv.empty()) {
+        std::vector<Row> rows;
+        for (std::size_t i = 0; i < experiments.size(); ++i)
+            std::ranges::move(all_rows(experiments[i], outcomes[i]), std::back_inserter(rows));
+        if (const auto status = write_text(options.csv, to_csv(rows)); !status) return status;
+        std::cout << "table: " << options.csv << '\n';
+    }
+    if (!options.timeline.empty()) {
+        if (const auto status = save_timeline(experiments.front(), options.timeline); !status) return status;
+        std::cout << "timeline: " << options.timeline
+                  << (options.timeline.ends_with(".json") ? " (open it in ui.perfetto.dev)\n" : "\n");
+    }
+    return {};
+}
+
+}  // namespace swath::sim

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+#include "common/base/result.h"
+#include "sim/scenario/options.h"
+
+namespace swath::sim {
+
+struct RunOptions {
+    ScenarioOptions scenario;
+    std::string csv;       // file for the table; none if empty
+    std::string timeline;  // FILE.csv or FILE.json, of the one experiment's first path; none if empty
+};
+
+// `swath-sim run`: simulates one scenario and prints paper mode and full mode side by side.
+Status run(const RunOptions& options);
+
+}  // namespace swath::sim

@@ -1,0 +1,135 @@
+#include "sim/scenario/options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <thread>
+
+#include "common/scene/model.h"
+
+namespace swath::sim {
+namespace {
+
+Result<std::size_t> parse_servers(const std::string& text) {
+    std::size_t servers = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), servers);
+    if (error != std::errc{} || end != text.data() + text.size() || servers < 1 || servers > kMaxServers)
+        return fail("--servers: '{}': expected a number from 1 to {}", text, kMaxServers);
+    return servers;
+}
+
+// Each value once, in the order given.
+template <class T>
+void add_once(std::vector<T>& values, T value) {
+    if (std::ranges::find(values, value) == values.end()) values.push_back(std::move(value));
+}
+
+}  // namespace
+
+Result<ModelName> parse_model_name(const std::string& text) {
+    ModelName model{{}, text};
+    if (const auto equals = text.find('='); equals != std::string::npos) {
+        model = {text.substr(0, equals), text.substr(equals + 1)};
+        if (model.name.empty() || model.file.empty())
+            return fail("'{}': expected NAME=FILE, or a FILE alone", text);
+    } else if (is_builtin(text)) {
+        const std::string name = text.substr(std::string_view("builtin:").size());
+        model.name = name.substr(0, name.find(':'));
+    } else {
+        model.name = std::filesystem::path(text).stem().string();
+    }
+    if (model.name.empty()) return fail("'{}': expected a model's file, or builtin:NAME", text);
+    if (std::ranges::any_of(model.name, [](unsigned char c) { return c < ' '; }))
+        return fail("'{}': a model's name has no control characters", text);
+    return model;
+}
+
+std::size_t threads_or_all(std::size_t wanted) {
+    return wanted > 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
+}
+
+void ScenarioFlags::add_to(CLI::App& app, bool many) {
+    const std::string list = many ? "; several with commas between" : "";
+    const auto values = [&](CLI::Option* option) {
+        option->delimiter(',')->capture_default_str();
+        if (!many) option->expected(1);
+        return option;
+    };
+    if (many)
+        app.add_option("--model", models_, "[NAME=]FILE or builtin:NAME, as swath-client takes; repeatable")
+            ->required();
+    else
+        app.add_option("MODEL", models_, "[NAME=]FILE or builtin:NAME, as swath-client takes")
+            ->required()
+            ->expected(1);
+    app.add_option("--algorithm", algorithms_, "how to divide a frame, several with commas between: " + algorithm_names())
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_option("--servers", servers_, "how many, several with commas between")
+        ->delimiter(',')
+        ->capture_default_str();
+    values(app.add_option("--hardware", hardware_, "a profile's name (see swath-sim hardware) or a FILE.toml" + list));
+    values(app.add_option("--size", sizes_, "of the picture in pixels" + list));
+    auto* depths = values(app.add_option("--octree-depth", depths_, "that cuts the model into objects [4]" + list)
+                              ->check(CLI::Range(0, kMaxOctreeDepth)));
+    values(app.add_option("--objects", objects_, "... or about how many objects to cut it into" + list)
+               ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000})))
+        ->excludes(depths);
+    app.add_option("--path", path_.path, "of the camera: random (seeded, the paper's), orbit, or a FILE")
+        ->capture_default_str();
+    app.add_option("--frames", path_.frames, "of a path")
+        ->capture_default_str()
+        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}));
+    app.add_option("--zoom", path_.zoom, "1: the model about fills the picture's height")
+        ->capture_default_str()
+        ->check(number_within(0.01, 100));
+    app.add_option("--seed", path_.seed, "of the random path")->capture_default_str()->check(whole_number());
+    app.add_option("--seeds", path_.seeds, "how many random paths: SEED and those after it")
+        ->capture_default_str()
+        ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}));
+    app.add_option("--in-flight", frames_in_flight_, "frames begun and not complete at a time, in full mode")
+        ->capture_default_str()
+        ->check(CLI::Range(std::size_t{1}, std::size_t{8}));
+    app.add_option("--threads", threads_, "to simulate with [one a core]")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1024}));
+}
+
+Result<ScenarioOptions> ScenarioFlags::read() const {
+    ScenarioOptions options;
+    for (const std::string& text : models_) {
+        auto model = parse_model_name(text);
+        if (!model) return tl::unexpected(model.error());
+        const auto taken = std::ranges::find(options.models, model->name, &ModelName::name);
+        if (taken != options.models.end())
+            return fail("two models are called '{}': name them, as in a={} b={}", model->name, taken->file,
+                        model->file);
+        options.models.push_back(std::move(*model));
+    }
+    for (const std::string& text : algorithms_) {
+        const auto algorithm = parse_algorithm(text);
+        if (!algorithm) return fail_in("--algorithm", algorithm.error());
+        add_once(options.algorithms, *algorithm);
+    }
+    for (const std::string& text : servers_) {
+        const auto servers = parse_servers(text);
+        if (!servers) return tl::unexpected(servers.error());
+        add_once(options.servers, *servers);
+    }
+    for (const std::string& name : hardware_) add_once(options.hardware, name);
+    for (const std::string& text : sizes_) {
+        const auto size = parse_size("--size", text);
+        if (!size) return tl::unexpected(size.error());
+        add_once(options.sizes, *size);
+    }
+    for (const int depth : depths_) options.granularities.push_back({depth, 0});
+    for (const std::size_t objects : objects_) options.granularities.push_back({std::nullopt, objects});
+    if (options.granularities.empty()) options.granularities.push_back({4, 0});
+    options.path = path_;
+    options.frames_in_flight = frames_in_flight_;
+    options.threads = threads_or_all(threads_);
+    return options;
+}
+
+}  // namespace swath::sim
