@@ -12,12 +12,14 @@ class RealModel : public EndToEnd {
     void compare(const Arguments& arguments, const std::vector<int>& servers) {
         const std::string expected = render(arguments + Arguments{"--single"});
         expect_not_only({16, 18, 24}, expected);
+        const auto compare_one = [&](const char* algorithm, int n) {
+            SCOPED_TRACE(fmt::format("{} with {} servers", algorithm, n));
+            expect_same_pictures(expected, render(arguments + Arguments{"--local", std::to_string(n),
+                                                                        "--algorithm", algorithm}));
+        };
         for (const char* algorithm : {"hybrid", "sort-last"})
-            for (const int n : servers) {
-                SCOPED_TRACE(fmt::format("{} with {} servers", algorithm, n));
-                expect_same_pictures(expected, render(arguments + Arguments{"--local", std::to_string(n),
-                                                                            "--algorithm", algorithm}));
-            }
+            for (const int n : servers) compare_one(algorithm, n);
+        for (const char* algorithm : {"mahd", "kd-split"}) compare_one(algorithm, servers.back());
     }
 };
 

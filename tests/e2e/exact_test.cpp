@@ -68,23 +68,28 @@ const std::vector<Scene> kScenes{
 
 class ClusterPictures : public EndToEnd, public testing::WithParamInterface<Scene> {
   protected:
-    void compare(const std::string& algorithm) {
+    // Every number of servers with one algorithm, in turn.
+    void compare(const std::vector<std::string>& algorithms) {
         const Scene& scene = GetParam();
         Arguments arguments = scene.arguments;
         if (!scene.cameras.empty())
             arguments = arguments + Arguments{"--path", files_.write("cameras.txt", scene.cameras)};
         const std::string expected = render(arguments + Arguments{"--single"});
         if (scene.name != "OnePixel") expect_not_only({16, 18, 24}, expected);
-        for (const int servers : scene.servers) {
-            SCOPED_TRACE(fmt::format("{} servers", servers));
+        for (std::size_t i = 0; i < scene.servers.size(); ++i) {
+            const int servers = scene.servers[i];
+            const std::string& algorithm = algorithms[i % algorithms.size()];
+            SCOPED_TRACE(fmt::format("{} with {} servers", algorithm, servers));
             expect_same_pictures(expected, render(arguments + Arguments{"--local", std::to_string(servers),
                                                                         "--algorithm", algorithm}));
         }
     }
 };
 
-TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithTheHybridAlgorithm) { compare("hybrid"); }
-TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithSortLast) { compare("sort-last"); }
+TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithTheHybridAlgorithm) { compare({"hybrid"}); }
+TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithSortLast) { compare({"sort-last"}); }
+// They differ only in where they cut, so they share the time of one.
+TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithSortFirst) { compare({"mahd", "kd-split"}); }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ClusterPictures, testing::ValuesIn(kScenes),
                          [](const auto& scene) { return scene.param.name; });
@@ -101,7 +106,7 @@ TEST_F(Pictures, AreBackgroundWhenTheCameraLooksAway) {
                               files_.write("away.txt", "0 0 9 0 0 19 0 1 0 50\n")};
     const std::string expected = render(arguments + Arguments{"--single"});
     expect_only({0x20, 0x40, 0x60}, expected);
-    for (const char* algorithm : {"hybrid", "sort-last"})
+    for (const char* algorithm : {"hybrid", "mahd", "kd-split", "sort-last"})
         for (const char* servers : {"1", "4"})
             expect_same_pictures(expected,
                                  render(arguments + Arguments{"--local", servers, "--algorithm", algorithm}));
