@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/base/check.h"
@@ -16,6 +17,7 @@ constexpr double kSameLevel = 1 + 1e-10;
 // Of a flow's time in nanoseconds: what counts as rounding.
 constexpr double kSlackNs = 1e-3;
 constexpr double kRelativeSlack = 1e-12;
+constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kLongestNs = 4e18;  // 127 years
 
 void check_rate(double rate) {
@@ -49,7 +51,7 @@ FlowNetwork::FlowNetwork(EventQueue& events, NetworkRates rates)
     }
     if (rates.core) {
         check_rate(*rates.core);
-        core_.emplace().rate = *rates.core;
+        core_.rate = *rates.core;
     }
 }
 
@@ -95,9 +97,9 @@ void FlowNetwork::begin(Index flow) {
     if (pair.flows.empty()) activate(index);
     pair.flows.push_back({served(pair) + flows_[flow].bytes, flows_[flow].number, flow});
     std::ranges::push_heap(pair.flows, later_end);
-    ++shares_[index].flows;
-    ++links_[shares_[index].out_link].flows;
-    ++links_[shares_[index].in_link].flows;
+    count(index, 1);
+    links_[shares_[index].out_link].grown = true;
+    links_[shares_[index].in_link].grown = true;
     change(index);
 }
 
@@ -114,11 +116,10 @@ void FlowNetwork::end_flows() {
             ended_.push_back(pair.flows.front());
             std::ranges::pop_heap(pair.flows, later_end);
             pair.flows.pop_back();
-            --shares_[index].flows;
-            --links_[shares_[index].out_link].flows;
-            --links_[shares_[index].in_link].flows;
+            count(index, -1);
         }
         change(index);
+        lowest_ended_ = std::min(lowest_ended_, pair.rate);
         if (pair.flows.empty()) deactivate(index);
     }
     std::ranges::sort(ended_, {}, &Waiting::number);
@@ -134,17 +135,38 @@ void FlowNetwork::end_flows() {
 void FlowNetwork::share() {
     sharing_asked_ = false;
     ++round_;
+    find_kept();
     reach();
     fill();
     for (const Index pair : reached_pairs_) apply(pair);
     wake_at_next_end();
 }
 
+// Up to some level filling goes as it went before the instant's changes: a flow that ended makes no
+// difference until it had its rate, and one that began none until a link of its own is full, which takes at
+// least an equal part of the link for each of its flows.
+void FlowNetwork::find_kept() {
+    kept_ = std::exchange(lowest_ended_, kNone);
+    bool grown = false;
+    for (const Index index : touched_) {
+        Link& link = links_[index];
+        if (!std::exchange(link.grown, false) || link.flows == 0) continue;
+        kept_ = std::min(kept_, link.rate / link.flows);
+        grown = true;
+    }
+    if (has_core() && grown) kept_ = std::min(kept_, core_.rate / core_.flows);
+    kept_ /= kSameLevel;
+}
+
+// The links and pairs that are connected to a change.
 void FlowNetwork::reach() {
-    const auto reach_link = [this](Index link) {
-        if (links_[link].round == round_) return;
-        links_[link].round = round_;
-        reached_links_.push_back(link);
+    const auto reach_link = [&](Index index) {
+        Link& link = links_[index];
+        if (link.round == round_ || link.flows == 0) return;
+        link.round = round_;
+        link.given = 0;
+        link.open = link.flows;
+        reached_links_.push_back(index);
     };
     reached_links_.clear();
     reached_pairs_.clear();
@@ -153,12 +175,15 @@ void FlowNetwork::reach() {
         reach_link(link);
     }
     touched_.clear();
-    if (core_) {  // connects them all
-        for (Index link = 0; link < links_.size(); ++link)
-            if (links_[link].flows > 0) reach_link(link);
+    if (has_core()) {  // connects them all
+        for (Index link = 0; link < links_.size(); ++link) reach_link(link);
     }
     const std::size_t hosts = bytes_out_.size();
     for (std::size_t i = 0; i < reached_links_.size(); ++i) {
+        if (reached_links_.size() == links_in_use_) {
+            reached_pairs_ = active_;
+            return;
+        }
         const Index link = reached_links_[i];
         const bool out = link < hosts;
         for (const Index pair : links_[link].pairs) {
@@ -172,23 +197,20 @@ void FlowNetwork::reach() {
 // keep theirs, the others rise on. A link's level, the rate at which it will be full, can only rise on the
 // way, so the heap learns of that when the link comes to its top.
 void FlowNetwork::fill() {
+    if (has_core()) {
+        core_.given = 0;
+        core_.open = core_.flows;
+    }
+    for (const Index pair : reached_pairs_)
+        if (shares_[pair].rate < kept_) give(pair, shares_[pair].rate);
     levels_.clear();
-    for (const Index index : reached_links_) {
-        Link& link = links_[index];
-        link.given = 0;
-        link.open = link.flows;
-        if (link.flows > 0) levels_.push_back({link.level(), index});
-    }
+    for (const Index link : reached_links_)
+        if (links_[link].open > 0) levels_.push_back({links_[link].level(), link});
     std::ranges::make_heap(levels_, later_level);
-    if (core_) {
-        core_->given = 0;
-        core_->open = 0;
-        for (const Index pair : reached_pairs_) core_->open += shares_[pair].flows;
-    }
     double risen = 0;
     while (!levels_.empty()) {
         const Level first = levels_.front();
-        const bool core_first = core_ && core_->open > 0 && core_->level() <= first.level;
+        const bool core_first = has_core() && core_.open > 0 && core_.level() <= first.level;
         if (!core_first) {
             std::ranges::pop_heap(levels_, later_level);
             levels_.pop_back();
@@ -200,7 +222,7 @@ void FlowNetwork::fill() {
                 continue;
             }
         }
-        const double level = core_first ? core_->level() : first.level;
+        const double level = core_first ? core_.level() : first.level;
         if (level > risen * kSameLevel) risen = level;
         for (const Index pair : core_first ? reached_pairs_ : links_[first.link].pairs)
             if (shares_[pair].round != round_) give(pair, risen);
@@ -213,7 +235,7 @@ void FlowNetwork::give(Index pair, double rate) {
     share.round = round_;
     share.rate = rate;
     const double flows = share.flows;
-    for (Link* link : {&links_[share.out_link], &links_[share.in_link], core_ ? &*core_ : nullptr}) {
+    for (Link* link : {&links_[share.out_link], &links_[share.in_link], has_core() ? &core_ : nullptr}) {
         if (!link) continue;
         link->given += flows * rate;
         link->open -= flows;
@@ -263,6 +285,7 @@ void FlowNetwork::activate(Index index) {
     pair.served = 0;
     pair.since = events_.now();
     pair.rate = 0;
+    shares_[index].rate = kNone;
     pair.active_place = static_cast<Index>(active_.size());
     active_.push_back(index);
     ends_.push_back(Nanoseconds::max());
@@ -290,6 +313,18 @@ void FlowNetwork::deactivate(Index index) {
     take_out(links_[shares_[index].in_link].pairs, pair.in_place, &Pair::in_place);
 }
 
+void FlowNetwork::count(Index index, int flows) {
+    const auto add = [flows](Index& to) { to = static_cast<Index>(static_cast<int>(to) + flows); };
+    add(shares_[index].flows);
+    if (has_core()) add(core_.flows);
+    for (const Index link : {shares_[index].out_link, shares_[index].in_link}) {
+        const bool was_idle = links_[link].flows == 0;
+        add(links_[link].flows);
+        if (was_idle) ++links_in_use_;
+        if (links_[link].flows == 0) --links_in_use_;
+    }
+}
+
 // Notes that the pair's flows have changed at this instant.
 void FlowNetwork::change(Index index) {
     pairs_[index].changed = true;
@@ -312,8 +347,9 @@ Nanoseconds FlowNetwork::end_of(const Pair& pair) const {
     const double ns =
         std::max(0.0, pair.flows.front().until - pair.served) / pair.rate * kNanosecondsPerSecond;
     CHECK(ns < kLongestNs);
-    const double whole = std::ceil(ns - kSlackNs - ns * kRelativeSlack);
-    return pair.since + Nanoseconds(static_cast<std::int64_t>(std::max(0.0, whole)));
+    const double least = std::max(0.0, ns - kSlackNs - ns * kRelativeSlack);
+    const auto whole = static_cast<std::int64_t>(least);
+    return pair.since + Nanoseconds(static_cast<double>(whole) < least ? whole + 1 : whole);
 }
 
 }  // namespace swath::sim

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -32,8 +33,9 @@ struct NetworkRates {
 // queue, and lives until the queue has run.
 //
 // Flows between the same two hosts have the same rate and are one Pair. An instant with changes costs
-// O(P + L log L) for the P pairs and L links that are connected to a change by links in use (all, with a
-// core), and a look at the next end of every pair in use.
+// O(P + L log L), in which P counts the pairs and L the links that are connected to a change by links in use
+// (all of them, with a core), and a look at the next end of every pair. Rates below the lowest that can have
+// changed are taken over, which spares their links the logarithm.
 class FlowNetwork {
   public:
     // Rates are positive and finite, the latency is not negative (CHECKed).
@@ -95,6 +97,7 @@ class FlowNetwork {
         Index flows = 0;
         Index round = 0;       // in which it was reached
         bool touched = false;  // listed in touched_
+        bool grown = false;    // has a flow that began at this instant
         double given = 0;      // while sharing: to flows whose rate is found
         double open = 0;       // while sharing: flows whose rate is not
         std::vector<Index> pairs;
@@ -105,10 +108,12 @@ class FlowNetwork {
         Index link;
     };
 
+    bool has_core() const { return core_.rate > 0; }
     void begin(Index flow);
     void end_flows();
     void share();
     void reach();
+    void find_kept();
     void fill();
     void give(Index pair, double rate);
     void apply(Index pair);
@@ -118,13 +123,14 @@ class FlowNetwork {
     void activate(Index pair);
     void deactivate(Index pair);
     void change(Index pair);
+    void count(Index pair, int flows);
     double served(const Pair& pair) const;
     Nanoseconds end_of(const Pair& pair) const;
 
     EventQueue& events_;
     Nanoseconds latency_;
     std::vector<Link> links_;  // out of each host, then into each host
-    std::optional<Link> core_;
+    Link core_;                // without: of no rate
     std::vector<double> bytes_out_;
     std::vector<double> bytes_in_;
     double bytes_ = 0;
@@ -138,7 +144,11 @@ class FlowNetwork {
     std::vector<Index> active_;      // pairs with flows
     std::vector<Nanoseconds> ends_;  // the first end of active_'s pairs
 
+    std::size_t links_in_use_ = 0;
     bool sharing_asked_ = false;
+    double lowest_ended_ =
+        std::numeric_limits<double>::infinity();  // rate, of flows that ended at this instant
+    double kept_ = 0;                             // lower rates than this stay what they are
     Index round_ = 0;
     std::vector<Index> touched_;  // links
     std::vector<Index> reached_links_;
