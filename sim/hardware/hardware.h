@@ -36,7 +36,8 @@ struct Hardware {
         std::optional<double> core_bytes_per_s;  // of the switch; without: no limit
         double swath_bytes_per_pixel = 0;        // all that a pixel sent between servers costs
         double tile_bytes_per_pixel = 0;         // ... and one sent to the display
-        double active_share = 1;                 // of the pixels in a rectangle to send that are sent
+        double active_share = 1;                 // of the pixels in a swath's rectangles that are sent
+        double tile_active_share = 1;            // ... and of those in a tile's final region
     } network;
 
     struct Client {
@@ -51,13 +52,14 @@ struct Hardware {
         bool culls = false;  // draws only what is on the screen
         Compositing compositing = Compositing::kGraphics;
         BufferAccess colour;
-        BufferAccess depth;             // with the object ids, where they are sent
-        double pack_pixels_per_s = 0;   // kHost: coding swaths, gathering tiles
-        double merge_pixels_per_s = 0;  // kHost: depth test of received pixels
+        BufferAccess depth;  // with the object ids, where they are sent
+        // kHost; of pixels that are sent, that is active ones.
+        double pack_pixels_per_s = 0;   // coding swaths, gathering tiles
+        double merge_pixels_per_s = 0;  // decoding and depth test of received pixels
     } server;
 
     struct Display {
-        BufferAccess colour;  // only written: received tiles into the picture
+        BufferAccess colour;  // only written, an operation a tile: its pixels that are sent
     } display;
 };
 

@@ -24,7 +24,9 @@ const std::array kKeys{
     Key{"network.tile", +[](H& h) -> D { return h.network.tile_bytes_per_pixel; }, Unit::kBytesPerPixel,
         Need::kAlways, "size of a pixel sent to the display"},
     Key{"network.active_share", +[](H& h) -> D { return h.network.active_share; }, Unit::kShare, Need::kAlways,
-        "how many of the pixels in a rectangle to send are sent; 1 sends whole rectangles"},
+        "how many of the pixels in a swath's rectangles are sent; 1 sends whole rectangles"},
+    Key{"network.tile_active_share", +[](H& h) -> D { return h.network.tile_active_share; }, Unit::kShare,
+        Need::kAlways, "... and of those in a tile, to the display"},
 
     Key{"client.transform", +[](H& h) -> D { return h.client.transform_s; }, Unit::kObjectTime, Need::kAlways,
         "to find an object's box on the screen"},
@@ -55,14 +57,14 @@ const std::array kKeys{
     Key{"server.depth.write", +[](H& h) -> D { return h.server.depth.write_pixels_per_s; }, Unit::kPixelRate,
         Need::kForGraphics, "from host memory to the depth buffer"},
     Key{"server.pack", +[](H& h) -> D { return h.server.pack_pixels_per_s; }, Unit::kPixelRate,
-        Need::kForHost, "coding of swaths and gathering of the tile, before they are sent"},
+        Need::kForHost, "coding of swaths and gathering of the tile, counting pixels that are sent"},
     Key{"server.merge", +[](H& h) -> D { return h.server.merge_pixels_per_s; }, Unit::kPixelRate,
-        Need::kForHost, "depth test of received pixels"},
+        Need::kForHost, "decoding and depth test of received pixels"},
 
     Key{"display.latency", +[](H& h) -> D { return h.display.colour.latency_s; }, Unit::kTime, Need::kAlways,
         "of an operation on the display's colour buffer, one for each tile"},
     Key{"display.write", +[](H& h) -> D { return h.display.colour.write_pixels_per_s; }, Unit::kPixelRate,
-        Need::kAlways, "from a received tile to the display's colour buffer"},
+        Need::kAlways, "from a received tile to the display's colour buffer, counting pixels that are sent"},
 };
 // clang-format on
 

@@ -80,6 +80,24 @@ TEST(Profile, EveryBuiltInOneReadsBackFromItsOwnFile) {
     }
 }
 
+TEST(Profile, OfTheEthernetsDifferInBandwidthAlone) {
+    EXPECT_EQ(builtin_hardware(),
+              (std::vector<std::string>{"paper-2000", "gbe-2026", "10gbe-2026", "100gbe-2026"}));
+    Hardware slow = find_hardware("gbe-2026").value();
+    EXPECT_DOUBLE_EQ(slow.network.bytes_per_s, 117.5e6);
+    EXPECT_EQ(slow.server.compositing, Compositing::kHost);
+    EXPECT_TRUE(slow.server.culls);
+    for (const auto& [name, factor] : {std::pair{"10gbe-2026", 10.0}, {"100gbe-2026", 100.0}}) {
+        const Hardware fast = find_hardware(name).value();
+        EXPECT_DOUBLE_EQ(fast.network.bytes_per_s, factor * slow.network.bytes_per_s);
+        Hardware same = slow;
+        same.name = fast.name;
+        same.about = fast.about;
+        same.network.bytes_per_s = fast.network.bytes_per_s;
+        EXPECT_EQ(explain(same), explain(fast));
+    }
+}
+
 TEST(Profile, CanChangeAFewValuesOfABuiltInOne) {
     const Hardware mine = paper_with("[network]\nbandwidth = \"1 Gbit/s\"\ncore_bandwidth = \"2.5 GB/s\"\n");
     EXPECT_EQ(mine.name, "mine");
@@ -136,7 +154,7 @@ TEST(Profile, WithoutABaseNeedsEveryKeyThatIsNotOptional) {
             EXPECT_THAT(error, StartsWith("mine: " + key + " is missing, expected e.g. "));
         ++removed;
     }
-    EXPECT_EQ(removed, 20u);
+    EXPECT_EQ(removed, 21u);
 }
 
 TEST(Profile, NamesTheLineTheKeyAndTheExpectationOfABadValue) {
