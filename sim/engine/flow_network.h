@@ -45,7 +45,7 @@ class FlowNetwork {
 
     // `arrived` is called when the last byte is there: after the latency, and the time the bytes take. Hosts
     // are places in NetworkRates::hosts; a message to oneself, or of no bytes, takes the latency alone. bytes
-    // >= 0, finite. (All CHECKed.)
+    // >= 0, finite, and few enough to arrive within 4e18 ns (127 years). (All CHECKed.)
     void send(std::size_t from, std::size_t to, double bytes, EventQueue::Action arrived);
 
     // Bytes that have left and entered a host so far, those under way included in full, those of messages to
