@@ -1,0 +1,39 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace swath::sim {
+
+// A table of text; the first column is left, all others right.
+struct PageTable {
+    std::vector<std::string> head;
+    std::vector<std::vector<std::string>> rows;
+};
+
+// An HTML page that needs nothing but the pictures that it names, light or dark as the reader's system is.
+// All text is escaped. Parts appear in the order of the calls.
+class Page {
+  public:
+    explicit Page(std::string title) : title_(std::move(title)) {}
+
+    void section(std::string_view title);  // listed at the top
+    void text(std::string_view paragraph);
+    void note(std::string_view paragraph);  // set apart: what to beware of
+    void table(const PageTable& table, std::string_view caption);
+    // Files beside the page. Several pictures stand side by side where there is room.
+    struct Picture {
+        std::string file;
+        std::string caption;
+    };
+    void figure(const std::vector<Picture>& pictures, std::string_view caption);
+
+    std::string html() const;
+
+  private:
+    std::string title_;
+    std::vector<std::string> sections_;
+    std::string body_;
+};
+
+}  // namespace swath::sim

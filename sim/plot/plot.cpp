@@ -1,0 +1,186 @@
+#include "sim/plot/plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "common/base/check.h"
+#include "common/base/file.h"
+#include "sim/plot/gnuplot.h"
+
+namespace swath::sim {
+namespace {
+
+// Okabe and Ito, "Color Universal Design" (2008): eight colours that colour-blind people tell apart; without
+// black, and yellow last.
+constexpr std::array<std::string_view, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                   "#e69f00", "#56b4e9", "#f0e442"};
+// Marks that differ in shape too, filled: circle, square, triangle, diamond, triangle down, pentagon.
+constexpr std::array<int, 6> kMarks{7, 5, 9, 13, 11, 15};
+// The same, open: for points without a line.
+constexpr std::array<int, 6> kOpenMarks{6, 4, 8, 12, 10, 14};
+
+constexpr std::string_view kText = "#333333";
+constexpr std::string_view kGrey = "#888888";
+
+constexpr std::string_view kSvg =
+    "set terminal svg noenhanced size 900,540 background '#ffffff' font 'DejaVu "
+    "Sans,Verdana,sans-serif,13'\n";
+// Twice the pixels of the SVG, for screens that have them.
+constexpr std::string_view kPng =
+    "set terminal pngcairo noenhanced size 1800,1080 background '#ffffff' font 'DejaVu Sans,13' "
+    "fontscale 2 linewidth 2 pointscale 2\n";
+
+// Somebody's text in the script.
+std::string text(std::string_view name) { return literal(printable(name)); }
+
+// ... below an axis, where gnuplot takes it for a format of numbers.
+std::string tic(std::string_view name) {
+    std::string format;
+    for (const char c : printable(name)) format += c == '%' ? "%%" : std::string(1, c);
+    return literal(format);
+}
+
+Status check_number(double value, const std::string& of) {
+    if (std::isfinite(value)) return {};
+    return fail("cannot draw '{}': {} is not a finite number", printable(of), value);
+}
+
+// What all pictures share.
+std::string frame(const std::string& title, const std::string& x_label, const std::string& y_label) {
+    std::string script = "set encoding utf8\n";
+    script += fmt::format("set border 3 linecolor rgb '{}' linewidth 1\n", kGrey);
+    script += fmt::format("set tics nomirror out scale 0.5 textcolor rgb '{}'\n", kText);
+    script += "set grid ytics back linecolor rgb '#dddddd' linetype 1 linewidth 0.7\n";
+    script += "set key outside right top Left reverse samplen 2 spacing 1.3 width 1 noenhanced\n";
+    script += fmt::format("set title {} textcolor rgb '{}'\n", text(title), kText);
+    if (!x_label.empty()) script += fmt::format("set xlabel {} textcolor rgb '{}'\n", text(x_label), kText);
+    script += fmt::format("set ylabel {} textcolor rgb '{}'\n", text(y_label), kText);
+    return script + "set yrange [0:*]\n";
+}
+
+// A place among so many, however large the number.
+template <class T, std::size_t n>
+const T& nth(const std::array<T, n>& of, std::size_t i) {
+    return of[i % n];
+}
+
+std::string style_of(const Series& series, std::size_t place) {
+    const std::size_t colour = series.colour.value_or(place);
+    const std::string_view rgb = nth(kColours, colour);
+    switch (series.style) {
+        case Style::kLine:
+            return fmt::format("with linespoints linecolor rgb '{}' linewidth 2 pointtype {} pointsize 0.7",
+                               rgb, nth(kMarks, colour));
+        case Style::kDashed:
+            return fmt::format(
+                "with linespoints linecolor rgb '{}' linewidth 2 dashtype (8,5) pointtype {} pointsize 0.7",
+                rgb, nth(kMarks, colour));
+        case Style::kPoints:
+            return fmt::format("with points linecolor rgb '{}' linewidth 1.5 pointtype {} pointsize 1.1", rgb,
+                               nth(kOpenMarks, colour));
+        case Style::kReference:
+            break;
+    }
+    return fmt::format("with lines linecolor rgb '{}' linewidth 1 dashtype (4,4)", kGrey);
+}
+
+Result<std::string> script_of(const Plot& plot) {
+    std::string script = frame(plot.title, plot.x_label, plot.y_label);
+    if (plot.log2_x) script += "set logscale x 2\n";
+    script += "set offsets graph 0.02, graph 0.02, graph 0.05, 0\n";
+    std::string command;
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+        const Series& series = plot.series[i];
+        if (series.points.empty()) continue;
+        script += fmt::format("$data{} << END\n", i);
+        for (const auto& [x, y] : series.points) {
+            for (const double value : {x, y})
+                if (const Status drawable = check_number(value, series.name); !drawable)
+                    return tl::unexpected(drawable.error());
+            if (plot.log2_x && x <= 0)
+                return fail("cannot draw '{}': {} is not on a logarithmic axis", printable(series.name), x);
+            script += fmt::format("{} {}\n", x, y);
+        }
+        script += "END\n";
+        command += fmt::format("{} $data{} using 1:2 title {} {}", command.empty() ? "plot" : ",", i,
+                               text(series.name), style_of(series, i));
+    }
+    if (command.empty()) return fail("nothing to draw in '{}'", printable(plot.title));
+    return script + command + '\n';
+}
+
+Result<std::string> script_of(const Bars& bars) {
+    constexpr double kBar = 0.8;  // of a bar's share of the axis
+    constexpr double kGap = 0.8;  // between groups
+    std::string tics;
+    std::string names;
+    std::vector<std::string> boxes(bars.segments.size());
+    double x = 0;
+    bool has_stacks = false;
+    const bool has_labels = std::ranges::any_of(bars.groups, [](const Bars::Group& group) {
+        return std::ranges::any_of(group.bars, [](const Bars::Bar& bar) { return !bar.label.empty(); });
+    });
+    for (const Bars::Group& group : bars.groups) {
+        const double centre = x + (static_cast<double>(group.bars.size()) - 1) / 2;
+        if (has_labels)
+            names += fmt::format("set label {} at first {}, graph -0.11 center textcolor rgb '{}'\n",
+                                 text(group.name), centre, kText);
+        else
+            tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", tic(group.name), centre);
+        for (const Bars::Bar& bar : group.bars) {
+            CHECK(bar.values.size() == bars.segments.size());
+            double bottom = 0;
+            for (std::size_t i = 0; i < bar.values.size(); ++i) {
+                if (const Status drawable = check_number(bar.values[i], bars.segments[i]); !drawable)
+                    return tl::unexpected(drawable.error());
+                if (bar.values[i] < 0)
+                    return fail("cannot draw '{}': {} is less than 0", printable(bars.segments[i]),
+                                bar.values[i]);
+                const double top = bottom + bar.values[i];
+                has_stacks |= top > bottom && bottom > 0;
+                if (top > bottom)
+                    boxes[i] += fmt::format("{} {} {} {} {} {}\n", x, bottom, x - kBar / 2, x + kBar / 2,
+                                            bottom, top);
+                bottom = top;
+            }
+            if (has_labels) tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", tic(bar.label), x);
+            x += 1;
+        }
+        x += kGap;
+    }
+    std::string script = frame(bars.title, "", bars.y_label);
+    if (has_stacks) script += "set key invert\n";  // the topmost segment first, as in the bars
+    script += fmt::format("set xrange [{}:{}]\n", -kGap, x - 1);
+    script += fmt::format("set xtics scale 0 ({})\n", tics) + names;
+    if (has_labels) script += "set bmargin 4\n";
+    script += "set style fill solid 1 noborder\n";
+    std::string command;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        if (boxes[i].empty()) continue;
+        script += fmt::format("$data{} << END\n{}END\n", i, boxes[i]);
+        command += fmt::format("{} $data{} using 1:2:3:4:5:6 title {} with boxxyerror linecolor rgb '{}'",
+                               command.empty() ? "plot" : ",", i, text(bars.segments[i]), nth(kColours, i));
+    }
+    if (command.empty()) return fail("nothing to draw in '{}'", printable(bars.title));
+    return script + command + '\n';
+}
+
+Status draw_both(const Result<std::string>& script, const std::filesystem::path& stem) {
+    if (!script) return tl::unexpected(script.error());
+    for (const auto& [terminal, suffix] : {std::pair{kSvg, ".svg"}, {kPng, ".png"}}) {
+        const std::string file = stem.string() + suffix;
+        const Result<Buffer> picture = run_gnuplot(std::string(terminal) + *script);
+        if (!picture) return fail_in(file, picture.error());
+        if (const Status written = write_file(file, picture->bytes()); !written) return written;
+    }
+    return {};
+}
+
+}  // namespace
+
+Status draw(const Plot& plot, const std::filesystem::path& stem) { return draw_both(script_of(plot), stem); }
+Status draw(const Bars& bars, const std::filesystem::path& stem) { return draw_both(script_of(bars), stem); }
+
+}  // namespace swath::sim

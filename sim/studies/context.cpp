@@ -1,0 +1,166 @@
+#include "sim/studies/context.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "common/base/check.h"
+#include "common/base/file.h"
+#include "common/program/progress.h"
+
+namespace swath::sim {
+namespace {
+
+// The paper's models. Zoom is what makes the mean area of the model's box on the screen that of the display
+// column of Table 1.
+struct PaperModel {
+    std::string_view name;
+    double zoom;
+    std::string_view stand_in;  // where the mesh is not to be had
+};
+constexpr std::array kPaperModels{PaperModel{"hand", 1.0, "builtin:hand"}, PaperModel{"dragon", 1.06, ""},
+                                  PaperModel{"buddha", 1.33, ""}};
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+const PaperModel* paper_model(const std::string& name) {
+    const auto found = std::ranges::find(kPaperModels, lower(name), &PaperModel::name);
+    return found == kPaperModels.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string table_name(Algorithm algorithm) {
+    return algorithm == Algorithm::kMahd ? "sort-first" : std::string(name_of(algorithm));
+}
+
+double Results::value(Algorithm algorithm, const std::string& model, std::size_t servers,
+                      std::string_view column) const {
+    for (std::size_t i = 0; i < experiments.size(); ++i) {
+        const Experiment& e = experiments[i];
+        if (e.algorithm != algorithm || e.model_name != model || e.servers != servers) continue;
+        for (const Row& row : all_rows(e, outcomes[i]))
+            if (row.column == column) return row.value;
+    }
+    throw CheckFailed(fmt::format("no {} of {}, {}, {} servers", column, name_of(algorithm), model, servers));
+}
+
+StudyContext::StudyContext(const StudyOptions& options)
+    : options_(options), page_("Hybrid sort-first and sort-last rendering: the paper's studies, run again") {}
+
+Result<StudyContext> StudyContext::open(const StudyOptions& options) {
+    StudyContext context(options);
+    auto hardware = find_hardware(options.hardware);
+    if (!hardware) return fail_in("--hardware", hardware.error());
+    context.hardware_store_.push_back(std::move(*hardware));
+    context.hardware_ = &context.hardware_store_.front();
+    // Before anything long: whether there is a place for what comes out.
+    std::error_code error;
+    std::filesystem::create_directories(options.out, error);
+    if (error) return fail("--out: {}: {}", options.out.string(), error.message());
+
+    for (const ModelName& name : options.models)
+        if (auto status = context.add_subject(name, false); !status) return tl::unexpected(status.error());
+    if (!options.models.empty()) return context;
+    for (const PaperModel& model : kPaperModels) {
+        const std::string name(model.name);
+        const std::string file = fmt::format("models/{}.ply", name);
+        if (std::filesystem::exists(file)) {
+            if (auto status = context.add_subject({name, file}, false); !status)
+                return tl::unexpected(status.error());
+        } else if (!model.stand_in.empty()) {
+            context.absences_.push_back(fmt::format(
+                "The paper's {} is not here ({} does not exist): {}, a procedural model, stands in for it.",
+                name, file, model.stand_in));
+            const ModelName stand_in{name + "-stand-in", std::string(model.stand_in)};
+            if (auto status = context.add_subject(stand_in, true); !status)
+                return tl::unexpected(status.error());
+        } else {
+            context.absences_.push_back(
+                fmt::format("The paper's {} is not here ({} does not exist; --model {}=FILE names another "
+                            "place): it is left out.",
+                            name, file, name));
+        }
+    }
+    return context;
+}
+
+Status StudyContext::add_subject(const ModelName& name, bool stand_in) {
+    auto model = load_study_model(name.name, name.file, {kPaperDepth, 0});
+    if (!model) return fail_in("--model " + name.name, model.error());
+    StudySubject subject{std::move(*model), name.file, {}, stand_in, 1, {}};
+    const std::string of = stand_in ? name.name.substr(0, name.name.find('-')) : name.name;
+    if (const PaperModel* known = paper_model(of)) {
+        subject.paper_name = known->name;
+        subject.zoom = known->zoom;
+    }
+    if (const auto zoom = options_.zooms.find(name.name); zoom != options_.zooms.end())
+        subject.zoom = zoom->second;
+    auto paths = make_paths({"random", options_.frames, subject.zoom, options_.seed, options_.seeds},
+                            subject.model.scene.bounds, kPaperWidth, kPaperHeight);
+    if (!paths) return tl::unexpected(paths.error());
+    subject.paths = std::move(*paths);
+    subjects_.push_back(std::move(subject));
+    return {};
+}
+
+const StudySubject& StudyContext::figures_subject() const {
+    for (const char* name : {"buddha", "dragon"})
+        for (const StudySubject& subject : subjects_)
+            if (subject.paper_name == name) return subject;
+    return subjects_.front();
+}
+
+std::vector<Experiment> StudyContext::experiments(const StudySubject& subject, const StudyModel& model,
+                                                  std::span<const Algorithm> algorithms, int width,
+                                                  int height) const {
+    std::vector<Experiment> experiments;
+    for (const Algorithm algorithm : algorithms) {
+        for (const std::size_t servers : kPaperServers) {
+            Experiment e;
+            e.model = &model;
+            e.paths = &subject.paths;
+            e.hardware = hardware_;
+            e.algorithm = algorithm;
+            e.servers = servers;
+            e.width = width;
+            e.height = height;
+            e.algorithm_name = table_name(algorithm);
+            e.model_name = model.name;
+            experiments.push_back(e);
+        }
+    }
+    return experiments;
+}
+
+Results StudyContext::run(std::vector<Experiment> experiments, const std::string& what) const {
+    const SteadyClock clock;
+    Progress progress(experiments.size(), "experiments of " + what, options_.quiet, clock);
+    auto outcomes = run_experiments(experiments, options_.threads,
+                                    [&](std::size_t, const Outcome&) { progress.step(); });
+    return {std::move(experiments), std::move(outcomes)};
+}
+
+const Results& StudyContext::table1() {
+    if (table1_.experiments.empty()) {
+        std::vector<Experiment> all;
+        for (const StudySubject& subject : subjects_)
+            std::ranges::move(
+                experiments(subject, subject.model, all_algorithms(), kPaperWidth, kPaperHeight),
+                std::back_inserter(all));
+        table1_ = run(std::move(all), "Table 1");
+    }
+    return table1_;
+}
+
+Status StudyContext::write(const std::string& file, std::string_view text) const {
+    return write_file(options_.out / file,
+                      std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+}  // namespace swath::sim

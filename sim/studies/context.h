@@ -1,0 +1,82 @@
+#pragma once
+#include <list>
+#include <string>
+#include <vector>
+
+#include "sim/experiment/experiment.h"
+#include "sim/page/page.h"
+#include "sim/plot/plot.h"
+#include "sim/studies/study.h"
+
+namespace swath::sim {
+
+inline constexpr int kPaperWidth = 1280;
+inline constexpr int kPaperHeight = 960;
+inline constexpr int kPaperDepth = 4;  // of the octree that cuts a model into objects
+inline constexpr std::array<std::size_t, 4> kPaperServers{8, 16, 32, 64};
+
+// What tables call an algorithm: sort-first is the paper's, MAHD.
+std::string table_name(Algorithm algorithm);
+
+// A model that the studies use.
+struct StudySubject {
+    StudyModel model;  // cut at kPaperDepth
+    std::string file;
+    std::string paper_name;  // of the paper's model that it is, or stands for; may be empty
+    bool stand_in = false;
+    double zoom = 1;
+    Paths paths;  // of the paper's aspect
+};
+
+// A set of experiments that ran.
+struct Results {
+    std::vector<Experiment> experiments;
+    std::vector<Outcome> outcomes;
+    // A column of paper mode (table1, client, effective_frame) or full mode; CHECKs that it is there.
+    double value(Algorithm algorithm, const std::string& model, std::size_t servers,
+                 std::string_view column) const;
+};
+
+// What the studies share: models, hardware, the page, and the results that several of them need.
+class StudyContext {
+  public:
+    static Result<StudyContext> open(const StudyOptions& options);
+
+    const StudyOptions& options() const { return options_; }
+    const Hardware& hardware() const { return *hardware_; }
+    const std::list<StudySubject>& subjects() const { return subjects_; }
+    const std::vector<std::string>& absences() const { return absences_; }  // sentences
+    // The one that the paper's figures show, or the nearest to it: Buddha, Dragon, the first.
+    const StudySubject& figures_subject() const;
+    Page& page() { return page_; }
+
+    // Experiments of a subject on all of kPaperServers.
+    std::vector<Experiment> experiments(const StudySubject& subject, const StudyModel& model,
+                                        std::span<const Algorithm> algorithms, int width, int height) const;
+    Results run(std::vector<Experiment> experiments, const std::string& what) const;
+    // All algorithms and subjects at the paper's settings. Runs when first asked for.
+    const Results& table1();
+
+    Status write(const std::string& file, std::string_view text) const;
+    // Draws STEM.svg and STEM.png and puts the former on the page.
+    template <class Drawing>
+    Status figure(const Drawing& drawing, const std::string& stem, std::string_view caption) {
+        if (auto status = draw(drawing, options_.out / stem); !status) return status;
+        page_.figure({{stem + ".svg", drawing.title}}, caption);
+        return {};
+    }
+
+  private:
+    explicit StudyContext(const StudyOptions& options);
+    Status add_subject(const ModelName& name, bool stand_in);
+
+    StudyOptions options_;
+    std::list<Hardware> hardware_store_;
+    const Hardware* hardware_ = nullptr;
+    std::list<StudySubject> subjects_;
+    std::vector<std::string> absences_;
+    Page page_;
+    Results table1_;
+};
+
+}  // namespace swath::sim

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/base/result.h"
+#include "sim/scenario/options.h"
+
+namespace swath::sim {
+
+struct StudyOptions {
+    std::vector<ModelName> models;        // empty: the paper's, as far as they are there
+    std::map<std::string, double> zooms;  // by model, where the paper's setting is not wanted
+    std::string hardware = "paper-2000";
+    std::size_t frames = 50;
+    std::uint64_t seed = 1;
+    std::size_t seeds = 5;
+    std::size_t threads = 1;
+    bool quiet = false;
+    std::filesystem::path out;
+};
+
+// The studies of Samanta 2000, sections 7.1 to 7.6: "feasibility", "scalability", "sort-first", "sort-last",
+// "resolution", "granularity".
+std::vector<std::string> study_names();
+
+// Runs the named studies in the paper's order and writes tables, plots and pictures into `out`, with an
+// index.html that shows them. Deterministic, whatever the number of threads. Long; shows progress.
+Status run_studies(const std::vector<std::string>& names, const StudyOptions& options);
+
+}  // namespace swath::sim

@@ -1,0 +1,39 @@
+#include "sim/page/page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace swath::sim {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Page, ListsItsSectionsAndKeepsTheOrder) {
+    Page page("Title");
+    page.section("First");
+    page.text("one");
+    page.section("Second");
+    page.note("two");
+    const std::string html = page.html();
+    EXPECT_THAT(html, HasSubstr("<li><a href=\"#s1\">Second</a></li>"));
+    EXPECT_LT(html.find("<p>one</p>"), html.find("<h2 id=\"s1\">Second</h2>"));
+    EXPECT_LT(html.find("Second</h2>"), html.find("two"));
+}
+
+TEST(Page, EscapesWhatItIsGiven) {
+    Page page("<title> & \"more\"");
+    page.section("<script>");
+    page.text("a < b");
+    page.note("<b>");
+    page.table({{"<th>"}, {{"<td>"}}}, "<caption>");
+    page.figure({{"a\"b.png", "<alt>"}, {"c.png", "d"}}, "<fig>");
+    const std::string html = page.html();
+    EXPECT_THAT(html, HasSubstr("<title>&lt;title&gt; &amp; &quot;more&quot;</title>"));
+    EXPECT_THAT(html, HasSubstr("src=\"a&quot;b.png\" alt=\"&lt;alt&gt;\""));
+    for (const char* raw : {"<script>", "a < b", "<b>", "<th><th>", "<td><td>", "<caption><caption>", "<fig>"})
+        EXPECT_THAT(html, Not(HasSubstr(raw)));
+}
+
+}  // namespace
+}  // namespace swath::sim
