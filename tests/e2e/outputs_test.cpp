@@ -192,7 +192,7 @@ TEST_F(Output, HelpIsOnePageAndNamesEveryFlag) {
                           "--out",           "--format",     "--quiet",      "--timeline",     "--connect-s",
                           "--background",    "hybrid",       "sort-last",    "osmesa",         "egl",
                           "--in-flight",     "--silence-ms", "builtin:knot", "orbit",          "random",
-                          "builtin:spheres", "builtin:town", "--help"}},
+                          "builtin:spheres", "builtin:town", "builtin:hand", "--help"}},
         {"swath-server",
          {"--listen", "--cache", "--max-model-mib", "--threads", "--quiet", "--lifeline", "--silence-ms",
           "--help"}},
