@@ -4,6 +4,7 @@
 #include "common/program/cli.h"
 #include "sim/hardware/hardware.h"
 #include "sim/run/run.h"
+#include "sim/studies/study.h"
 
 int main(int argc, char** argv) {
     using namespace swath;
@@ -21,6 +22,10 @@ int main(int argc, char** argv) {
     run_command->add_option("--timeline", run_options.timeline,
                             "what every machine did when: FILE.csv, or FILE.json for ui.perfetto.dev");
 
+    StudyFlags study_flags;
+    auto* study_command = app.add_subcommand("study", "repeat the paper's studies, as a page to read");
+    study_flags.add_to(*study_command);
+
     std::string profile;
     auto* hardware_command = app.add_subcommand("hardware", "list hardware profiles, or explain one");
     hardware_command->add_option("PROFILE", profile, "a built-in's name or a FILE.toml");
@@ -32,6 +37,10 @@ int main(int argc, char** argv) {
         if (!scenario) return usage_error(scenario.error());
         run_options.scenario = std::move(*scenario);
         status = run(run_options);
+    } else if (study_command->parsed()) {
+        auto studies = study_flags.read();
+        if (!studies) return usage_error(studies.error());
+        status = run_studies(*studies);
     } else if (profile.empty()) {
         for (const std::string& name : builtin_hardware())
             std::cout << name << "  " << find_hardware(name)->about << '\n';

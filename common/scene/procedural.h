@@ -13,6 +13,8 @@ namespace swath {
 //   knot     a bumpy torus knot, even small triangles, coloured along its length
 //   spheres  a deep field of spheres: more than ten surfaces behind one another in the middle of the picture
 //   town     boxes on a plane whose faces coincide with their neighbours': exact depth ties everywhere
+//   hand     the bones of a human hand: a stand-in for the Hand of Samanta 2000, which is not to be had, with
+//            as many triangles and, at octree depth 4, about as many objects (643)
 struct BuiltinModel {
     std::string name;
     std::string what;

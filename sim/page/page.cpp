@@ -26,11 +26,20 @@ std::string escaped(std::string_view text) {
     std::string out;
     for (const char c : text) {
         switch (c) {
-            case '&': out += "&amp;"; break;
-            case '<': out += "&lt;"; break;
-            case '>': out += "&gt;"; break;
-            case '"': out += "&quot;"; break;
-            default: out += c;
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += c;
         }
     }
     return out;
@@ -67,7 +76,8 @@ void Page::figure(const std::vector<Picture>& pictures, std::string_view caption
     for (const Picture& picture : pictures) {
         body_ += fmt::format("<div><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a>", escaped(picture.file),
                              escaped(picture.caption));
-        if (pictures.size() > 1) body_ += fmt::format("<figcaption>{}</figcaption>", escaped(picture.caption));
+        if (pictures.size() > 1)
+            body_ += fmt::format("<figcaption>{}</figcaption>", escaped(picture.caption));
         body_ += "</div>\n";
     }
     body_ += fmt::format("</div><figcaption>{}</figcaption></figure>\n", escaped(caption));

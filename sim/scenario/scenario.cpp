@@ -47,7 +47,8 @@ Status Scenario::add_model(const ModelName& name, const ScenarioOptions& options
                                     to_hex(digest(blob.bytes()))));
     std::vector<std::pair<const StudyModel*, std::string>> cuts;
     for (const Granularity& granularity : options.granularities) {
-        const StudyModel& model = models_.emplace_back(StudyModel{name.name, build_objects(*mesh, granularity)});
+        const StudyModel& model =
+            models_.emplace_back(StudyModel{name.name, build_objects(*mesh, granularity)});
         settings_.push_back(fmt::format("{}: {} objects at depth {}", name.name, model.scene.objects.size(),
                                         model.scene.depth));
         cuts.emplace_back(&model, fmt::format("depth {}", model.scene.depth));

@@ -141,8 +141,8 @@ std::vector<Experiment> StudyContext::experiments(const StudySubject& subject, c
 Results StudyContext::run(std::vector<Experiment> experiments, const std::string& what) const {
     const SteadyClock clock;
     Progress progress(experiments.size(), "experiments of " + what, options_.quiet, clock);
-    auto outcomes = run_experiments(experiments, options_.threads,
-                                    [&](std::size_t, const Outcome&) { progress.step(); });
+    auto outcomes =
+        run_experiments(experiments, options_.threads, [&](std::size_t, const Outcome&) { progress.step(); });
     return {std::move(experiments), std::move(outcomes)};
 }
 

@@ -10,7 +10,7 @@ namespace swath::sim {
 namespace {
 
 constexpr std::array kPaperAlgorithms{Algorithm::kHybrid, Algorithm::kMahd, Algorithm::kSortLast};
-constexpr std::array kColumns{"ideal_render", "overlap_render", "pixel_read",   "pixel_write", "final_read",
+constexpr std::array kColumns{"ideal_render", "overlap_render", "pixel_read",    "pixel_write", "final_read",
                               "imbalance",    "server_total",   "display_write", "speedup"};
 
 bool in_paper(const Experiment& e) {
@@ -40,8 +40,7 @@ std::string deviation(const Results& results, const StudySubject& subject, Algor
     double largest = 0;
     for (const std::size_t servers : kPaperServers) {
         const double ours = results.value(algorithm, subject.model.name, servers, "speedup");
-        const double paper =
-            published(table_name(algorithm), subject.paper_name, servers, "speedup").value();
+        const double paper = published(table_name(algorithm), subject.paper_name, servers, "speedup").value();
         const double off = std::abs(ours / paper - 1) * 100;
         sum += off / kPaperServers.size();
         largest = std::max(largest, off);
@@ -78,14 +77,12 @@ void show_modes(const Results& results, const StudySubject& subject, Page& page)
         };
         const FullMeans& full = results.outcomes[i].full;
         const ResourceUse busiest = full.bottleneck();
-        table.rows.push_back({fmt::format("{}, {}", e.algorithm_name, e.servers),
-                              fmt::format("{:.1f}", value("client")),
-                              fmt::format("{:.1f}", value("server_total")),
-                              fmt::format("{:.1f}", value("display_write")),
-                              fmt::format("{:.1f}", value("effective_frame")),
-                              fmt::format("{:.1f}", full.frame_s() * 1e3),
-                              fmt::format("{:.2f}", value("speedup")), fmt::format("{:.2f}", full.speedup()),
-                              fmt::format("{} ({:.0f} %)", busiest.resource, busiest.share * 100)});
+        table.rows.push_back(
+            {fmt::format("{}, {}", e.algorithm_name, e.servers), fmt::format("{:.1f}", value("client")),
+             fmt::format("{:.1f}", value("server_total")), fmt::format("{:.1f}", value("display_write")),
+             fmt::format("{:.1f}", value("effective_frame")), fmt::format("{:.1f}", full.frame_s() * 1e3),
+             fmt::format("{:.2f}", value("speedup")), fmt::format("{:.2f}", full.speedup()),
+             fmt::format("{} ({:.0f} %)", busiest.resource, busiest.share * 100)});
     }
     page.table(table, fmt::format("{}: stages in ms a frame. Full mode lets them all work at once and sends "
                                   "only what is covered; its speed-up includes client and display.",
@@ -121,8 +118,8 @@ Status feasibility(StudyContext& context) {
             std::ranges::copy(table1_rows(e, results.outcomes[i]), std::back_inserter(table1));
             table.rows.push_back(cells(e, results.outcomes[i], subject));
         }
-        std::string caption = fmt::format("Table 1, {}: ours{}.", name,
-                                          subject.paper_name.empty() ? "" : " (the paper's)");
+        std::string caption =
+            fmt::format("Table 1, {}: ours{}.", name, subject.paper_name.empty() ? "" : " (the paper's)");
         if (!subject.paper_name.empty())
             caption += fmt::format(
                 " Mean deviation of the speed-ups in per cent: hybrid {}, sort-first {}, sort-last {}.{}",

@@ -37,7 +37,11 @@ Plot figure_12(const StudyContext& context, const std::string& name, const std::
 }
 
 Plot figure_13(const Results& results, const std::string& name, const std::list<StudyModel>& models) {
-    Plot plot{fmt::format("Overhead of servers, {}", name), "Servers", "Overhead (% of ideal rendering)", false, {}};
+    Plot plot{fmt::format("Overhead of servers, {}", name),
+              "Servers",
+              "Overhead (% of ideal rendering)",
+              false,
+              {}};
     std::size_t colour = 0;
     for (const Algorithm algorithm : kAlgorithms) {
         for (const StudyModel& model : models) {
@@ -68,8 +72,7 @@ Status figure_14(StudyContext& context, const StudySubject& subject, const std::
         const FramePlan plan = first_plan(subject, model, Algorithm::kHybrid, kPictureServers);
         const std::string boxes = fmt::format("figure_14_boxes_{}.png", objects);
         const std::string tiles = fmt::format("figure_14_tiles_{}.png", objects);
-        if (auto status =
-                write_picture(context, boxes_figure(*frame, plan.view, model.scene.objects), boxes);
+        if (auto status = write_picture(context, boxes_figure(*frame, plan.view, model.scene.objects), boxes);
             !status)
             return status;
         if (auto status = write_picture(context, overlap_figure(*frame, plan), tiles); !status) return status;
@@ -77,9 +80,10 @@ Status figure_14(StudyContext& context, const StudySubject& subject, const std::
         bottom.push_back({tiles, fmt::format("{} objects", objects)});
     }
     context.page().figure(top, "Figure 14, top: the objects' boxes.");
-    context.page().figure(bottom, fmt::format("Figure 14, bottom: the hybrid's tiles for {} servers, overlaps "
-                                              "in white. Finer objects give thinner swaths.",
-                                              kPictureServers));
+    context.page().figure(bottom,
+                          fmt::format("Figure 14, bottom: the hybrid's tiles for {} servers, overlaps "
+                                      "in white. Finer objects give thinner swaths.",
+                                      kPictureServers));
     return {};
 }
 
@@ -121,7 +125,8 @@ Status granularity(StudyContext& context) {
             const auto overhead = [&](Algorithm algorithm) {
                 const double ideal = results.value(algorithm, model.name, servers, "ideal_render");
                 return fmt::format(
-                    "{:.0f} %", (results.value(algorithm, model.name, servers, "server_total") / ideal - 1) * 100);
+                    "{:.0f} %",
+                    (results.value(algorithm, model.name, servers, "server_total") / ideal - 1) * 100);
             };
             table.rows.push_back({std::to_string(model.scene.objects.size()), std::to_string(servers),
                                   overhead(Algorithm::kHybrid), overhead(Algorithm::kMahd),
@@ -130,7 +135,8 @@ Status granularity(StudyContext& context) {
     }
     page.table(table, fmt::format("Overhead over ideal rendering, {}.", name));
     page.note(
-        "The paper says that sort-last is unaffected by granularity. Its overhead falls too, since its groups "
+        "The paper says that sort-last is unaffected by granularity. Its overhead falls too, since its "
+        "groups "
         "are cut by the same sweep, but far less than the others'.");
     return figure_14(context, subject, *models);
 }

@@ -2,6 +2,7 @@
 #include <functional>
 #include <string>
 
+#include "common/image/picture.h"
 #include "common/plan/frame_plan.h"
 #include "sim/studies/context.h"
 

@@ -27,14 +27,14 @@ Status resolution(StudyContext& context) {
         "What do four times as many pixels cost? Sort-first does not care as long as polygons, not pixels, "
         "take the time; sort-last moves areas and the hybrid borders. The paper concludes that the hybrid's "
         "exchange grows only with the root of the number of pixels.");
-    if (auto status = context.figure(
-            server_bars(high, name, fmt::format("Servers at 2560x1920, {}", name)), "figure_11",
-            fmt::format("Figure 11 for {}: figure 8 at 2560x1920.", name));
+    if (auto status =
+            context.figure(server_bars(high, name, fmt::format("Servers at 2560x1920, {}", name)),
+                           "figure_11", fmt::format("Figure 11 for {}: figure 8 at 2560x1920.", name));
         !status)
         return status;
 
-    PageTable table{{"servers", "hybrid (ms)", "grows by", "sort-last (ms)", "grows by",
-                     "sort-last / hybrid", "speed-ups: hybrid", "sort-last", "sort-first"},
+    PageTable table{{"servers", "hybrid (ms)", "grows by", "sort-last (ms)", "grows by", "sort-last / hybrid",
+                     "speed-ups: hybrid", "sort-last", "sort-first"},
                     {}};
     for (const std::size_t servers : kPaperServers) {
         const auto moved = [&](const Results& results, Algorithm algorithm) {

@@ -33,8 +33,7 @@ Plot figure_9(const Results& results, const StudySubject& subject) {
             ours.points.emplace_back(x, results.value(algorithm, subject.model.name, servers, "speedup"));
             full.points.emplace_back(x,
                                      results.value(algorithm, subject.model.name, servers, "full_speedup"));
-            if (const auto value =
-                    published(table_name(algorithm), subject.paper_name, servers, "speedup"))
+            if (const auto value = published(table_name(algorithm), subject.paper_name, servers, "speedup"))
                 paper.points.emplace_back(x, *value);
         }
         plot.series.push_back(std::move(ours));
@@ -52,7 +51,8 @@ Bars server_bars(const Results& results, const std::string& model, const std::st
     Bars bars;
     bars.title = title;
     bars.y_label = "Time (ms a frame)";
-    bars.segments = {"ideal render", "overlap render", "pixel read", "pixel write", "final read", "imbalance"};
+    bars.segments = {"ideal render", "overlap render", "pixel read",
+                     "pixel write",  "final read",     "imbalance"};
     for (const Algorithm algorithm : kAlgorithms) {
         const bool replicates = grouping_of(algorithm) == Grouping::kAtLeastOnce;
         Bars::Group group{table_name(algorithm), {}};
@@ -60,10 +60,11 @@ Bars server_bars(const Results& results, const std::string& model, const std::st
             const auto value = [&](const char* column) {
                 return results.value(algorithm, model, servers, column);
             };
-            group.bars.push_back({std::to_string(servers),
-                                  {value("ideal_render"), replicates ? value("overlap_render") : 0,
-                                   replicates ? 0 : value("pixel_read"), replicates ? 0 : value("pixel_write"),
-                                   value("final_read"), value("imbalance")}});
+            group.bars.push_back(
+                {std::to_string(servers),
+                 {value("ideal_render"), replicates ? value("overlap_render") : 0,
+                  replicates ? 0 : value("pixel_read"), replicates ? 0 : value("pixel_write"),
+                  value("final_read"), value("imbalance")}});
         }
         bars.groups.push_back(std::move(group));
     }
@@ -87,11 +88,9 @@ Status scalability(StudyContext& context) {
                         name));
         !status)
         return status;
-    if (auto status =
-            context.figure(server_bars(results, name, fmt::format("Servers at 1280x960, {}", name)),
-                           "figure_8",
-                           fmt::format("Figure 8 for {}: where a server's time goes, for 8 to 64 servers.",
-                                       name));
+    if (auto status = context.figure(
+            server_bars(results, name, fmt::format("Servers at 1280x960, {}", name)), "figure_8",
+            fmt::format("Figure 8 for {}: where a server's time goes, for 8 to 64 servers.", name));
         !status)
         return status;
     for (const StudySubject& each : context.subjects()) {

@@ -40,10 +40,11 @@ Status sort_first(StudyContext& context) {
         "the smaller the tiles the more of them there are. The paper prints MAHD and says that KD-split is "
         "similar; both are here.");
     for (const StudySubject& subject : context.subjects())
-        page.table(comparison(results, subject.model.name),
-                   fmt::format("Speed-ups (paper mode) of {}. The paper finds the hybrid three to four times "
-                               "more efficient than MAHD; it does so at 64 servers only, also by its own table.",
-                               subject.model.name));
+        page.table(
+            comparison(results, subject.model.name),
+            fmt::format("Speed-ups (paper mode) of {}. The paper finds the hybrid three to four times "
+                        "more efficient than MAHD; it does so at 64 servers only, also by its own table.",
+                        subject.model.name));
 
     const StudySubject& subject = context.figures_subject();
     auto frame = first_frame(subject);
@@ -51,14 +52,15 @@ Status sort_first(StudyContext& context) {
     const FramePlan plan = first_plan(subject, subject.model, Algorithm::kMahd, kPictureServers);
     const std::vector<Object>& objects = subject.model.scene.objects;
     const std::size_t several = replicated_objects(plan, objects.size()).size();
-    if (auto status = write_picture(context, replication_figure(std::move(*frame), plan, objects),
-                                    "figure_10a.png");
+    if (auto status =
+            write_picture(context, replication_figure(std::move(*frame), plan, objects), "figure_10a.png");
         !status)
         return status;
-    page.figure({{"figure_10a.png", "objects that span tiles"}},
-                fmt::format("Figure 10a for {}, MAHD, {} servers: the boxes of the {} of {} objects that span "
-                            "tiles and are drawn several times.",
-                            subject.model.name, kPictureServers, several, objects.size()));
+    page.figure(
+        {{"figure_10a.png", "objects that span tiles"}},
+        fmt::format("Figure 10a for {}, MAHD, {} servers: the boxes of the {} of {} objects that span "
+                    "tiles and are drawn several times.",
+                    subject.model.name, kPictureServers, several, objects.size()));
     return {};
 }
 

@@ -20,11 +20,11 @@ PageTable comparison(const Results& results, const std::string& model) {
         };
         const double hybrid = value(Algorithm::kHybrid, "speedup");
         const double last = value(Algorithm::kSortLast, "speedup");
-        table.rows.push_back({std::to_string(servers), fmt::format("{:.2f}", hybrid),
-                              fmt::format("{:.2f}", last), fmt::format("{:.2f}", hybrid / last),
-                              fmt::format("{:.1f}", moved(Algorithm::kHybrid)),
-                              fmt::format("{:.1f}", moved(Algorithm::kSortLast)),
-                              fmt::format("{:.1f}", moved(Algorithm::kSortLast) / moved(Algorithm::kHybrid))});
+        table.rows.push_back(
+            {std::to_string(servers), fmt::format("{:.2f}", hybrid), fmt::format("{:.2f}", last),
+             fmt::format("{:.2f}", hybrid / last), fmt::format("{:.1f}", moved(Algorithm::kHybrid)),
+             fmt::format("{:.1f}", moved(Algorithm::kSortLast)),
+             fmt::format("{:.1f}", moved(Algorithm::kSortLast) / moved(Algorithm::kHybrid))});
     }
     return table;
 }

@@ -33,7 +33,8 @@ void introduce(StudyContext& context) {
         "Hardware: {} ({}). {} camera paths of {} frames, seeds {} to {}.",
         Experiment{}.frames_in_flight, context.hardware().name, context.hardware().about, options.seeds,
         options.frames, options.seed, options.seed + options.seeds - 1));
-    PageTable table{{"model", "file", "polygons", "objects", "paper's polygons", "paper's objects", "zoom"}, {}};
+    PageTable table{{"model", "file", "polygons", "objects", "paper's polygons", "paper's objects", "zoom"},
+                    {}};
     for (const StudySubject& subject : context.subjects()) {
         const auto paper = [&](const char* column) {
             const auto value = published("model", subject.paper_name, 0, column);
@@ -56,12 +57,12 @@ std::vector<std::string> study_names() {
     return names;
 }
 
-Status run_studies(const std::vector<std::string>& names, const StudyOptions& options) {
+Status run_studies(const StudyOptions& options) {
     auto context = StudyContext::open(options);
     if (!context) return tl::unexpected(context.error());
     introduce(*context);
     for (const Study& study : kStudies) {
-        if (std::ranges::find(names, study.name) == names.end()) continue;
+        if (std::ranges::find(options.names, study.name) == options.names.end()) continue;
         if (auto status = study.run(*context); !status) return fail_in(study.name, status.error());
     }
     return context->write("index.html", context->page().html());

@@ -1,4 +1,5 @@
 #pragma once
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 namespace swath::sim {
 
 struct StudyOptions {
+    std::vector<std::string> names;       // of studies
     std::vector<ModelName> models;        // empty: the paper's, as far as they are there
     std::map<std::string, double> zooms;  // by model, where the paper's setting is not wanted
     std::string hardware = "paper-2000";
@@ -26,8 +28,22 @@ struct StudyOptions {
 // "resolution", "granularity".
 std::vector<std::string> study_names();
 
+// The flags as the user gave them; read() checks them and makes the options.
+class StudyFlags {
+  public:
+    void add_to(CLI::App& app);
+    Result<StudyOptions> read() const;
+
+  private:
+    std::vector<std::string> names_;
+    std::vector<std::string> models_;
+    std::vector<std::string> zooms_;
+    StudyOptions options_;
+    std::size_t threads_ = 0;
+};
+
 // Runs the named studies in the paper's order and writes tables, plots and pictures into `out`, with an
 // index.html that shows them. Deterministic, whatever the number of threads. Long; shows progress.
-Status run_studies(const std::vector<std::string>& names, const StudyOptions& options);
+Status run_studies(const StudyOptions& options);
 
 }  // namespace swath::sim

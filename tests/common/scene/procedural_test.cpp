@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "common/scene/model_blob.h"
@@ -40,10 +41,10 @@ bool passes(const Mesh& mesh, std::size_t t, int axis, const glm::dvec2& at) {
     return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
 }
 
-TEST(ProceduralTest, there_is_a_knot_a_field_of_spheres_and_a_town) {
+TEST(ProceduralTest, there_is_a_knot_a_field_of_spheres_a_town_and_a_hand) {
     std::set<std::string> names;
     for (const BuiltinModel& model : builtin_models()) names.insert(model.name);
-    EXPECT_EQ(names, (std::set<std::string>{"knot", "spheres", "town"}));
+    EXPECT_EQ(names, (std::set<std::string>{"knot", "spheres", "town", "hand"}));
 }
 
 TEST(ProceduralTest, every_model_is_valid_and_as_large_as_wished_within_5_percent) {
@@ -66,8 +67,9 @@ TEST(ProceduralTest, small_wishes_are_met_roughly) {
         }
 }
 
-TEST(ProceduralTest, the_default_is_a_million_triangles) {
-    for (const BuiltinModel& model : builtin_models()) EXPECT_EQ(model.default_triangles, 1'000'000u);
+TEST(ProceduralTest, the_default_is_a_million_triangles_and_the_papers_number_for_the_hand) {
+    for (const BuiltinModel& model : builtin_models())
+        EXPECT_EQ(model.default_triangles, model.name == "hand" ? 654'666u : 1'000'000u);
 }
 
 TEST(ProceduralTest, the_models_have_the_same_bits_on_every_machine) {
@@ -78,6 +80,7 @@ TEST(ProceduralTest, the_models_have_the_same_bits_on_every_machine) {
     EXPECT_EQ(hex("knot"), "172e620e88bcfa3779f9c75e8a8b33bbfd7a801ae826ba79256aaee2743f71bb");
     EXPECT_EQ(hex("spheres"), "f7f256bdd47aedaa53484a6cf901c2699c488d6b6c678a1bcf9a5aef4d5b26c8");
     EXPECT_EQ(hex("town"), "9b6f9c6d945214e758aa8fe53780333874ae5090861c8296f7dbbf4386a76b6a");
+    EXPECT_EQ(hex("hand"), "c38244576580db242abbedb2d725393145fccc1a8726af4f45ad1c02eb966bea");
 }
 
 TEST(ProceduralTest, a_wish_out_of_the_limits_is_refused) {
@@ -92,7 +95,7 @@ TEST(ProceduralTest, a_wish_out_of_the_limits_is_refused) {
 
 TEST(ProceduralTest, an_unknown_name_is_refused_with_the_list_of_names) {
     EXPECT_EQ(make_builtin("teapot", 1000).error().message,
-              "no built-in model `teapot`, there are: knot, spheres, town");
+              "no built-in model `teapot`, there are: knot, spheres, town, hand");
 }
 
 TEST(ProceduralTest, the_knot_is_closed_smooth_and_of_even_triangles) {
@@ -200,6 +203,58 @@ TEST(ProceduralTest, the_towns_faces_are_flat) {
             ASSERT_EQ(first.normal, other.normal);
             ASSERT_EQ(first.colour, other.colour);
         }
+}
+
+// The pieces of a mesh that hang together, as a number for each triangle.
+std::vector<std::size_t> pieces(const Mesh& mesh) {
+    std::vector<std::size_t> root(mesh.vertices.size());
+    std::iota(root.begin(), root.end(), std::size_t{0});
+    const auto find = [&](std::size_t v) {
+        while (root[v] != v) v = root[v] = root[root[v]];
+        return v;
+    };
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+        for (std::size_t c = 1; c < 3; ++c) root[find(mesh.indices[3 * t + c])] = find(mesh.indices[3 * t]);
+    std::vector<std::size_t> piece;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) piece.push_back(find(mesh.indices[3 * t]));
+    return piece;
+}
+
+TEST(ProceduralTest, the_hand_has_29_bones_and_each_is_closed) {
+    const Mesh mesh = make("hand", 30'000);
+    const std::vector<std::size_t> piece = pieces(mesh);
+    EXPECT_EQ(std::set<std::size_t>(piece.begin(), piece.end()).size(), 29u);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+        for (std::size_t c = 0; c < 3; ++c)
+            ASSERT_TRUE(edges.insert({mesh.indices[3 * t + c], mesh.indices[3 * t + (c + 1) % 3]}).second);
+    for (const auto& [from, to] : edges) ASSERT_TRUE(edges.contains({to, from})) << "an edge is open";
+}
+
+TEST(ProceduralTest, the_hands_bones_are_the_right_way_out_and_of_bony_sizes) {
+    const Mesh mesh = make("hand", 30'000);
+    const std::vector<std::size_t> piece = pieces(mesh);
+    std::map<std::size_t, double> volume;  // of each bone, by the divergence theorem
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const auto corner = [&](std::size_t c) {
+            return glm::dvec3(mesh.vertices[mesh.indices[3 * t + c]].position);
+        };
+        volume[piece[t]] += glm::dot(corner(0), glm::cross(corner(1), corner(2))) / 6;
+    }
+    for (const auto& [bone, size] : volume) {
+        EXPECT_GT(size, 200) << "cubic millimetres of bone " << bone;
+        EXPECT_LT(size, 30'000) << "cubic millimetres of bone " << bone;
+    }
+}
+
+TEST(ProceduralTest, the_hand_is_cut_into_about_as_many_objects_as_the_papers) {
+    const Mesh mesh = make("hand", 654'666);
+    EXPECT_NEAR(static_cast<double>(mesh.triangle_count()), 654'666, 100);
+    const ObjectSet set = build_objects(mesh, {.depth = 4, .objects = 0});
+    EXPECT_NEAR(static_cast<double>(set.objects.size()), 643, 25);  // 643 in Samanta 2000
+    const glm::vec3 size = set.bounds.size();
+    EXPECT_LT(size.z, 0.4f * size.x);
+    EXPECT_LT(size.z, 0.25f * size.y);
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ TEST(Page, EscapesWhatItIsGiven) {
     const std::string html = page.html();
     EXPECT_THAT(html, HasSubstr("<title>&lt;title&gt; &amp; &quot;more&quot;</title>"));
     EXPECT_THAT(html, HasSubstr("src=\"a&quot;b.png\" alt=\"&lt;alt&gt;\""));
-    for (const char* raw : {"<script>", "a < b", "<b>", "<th><th>", "<td><td>", "<caption><caption>", "<fig>"})
+    for (const char* raw :
+         {"<script>", "a < b", "<b>", "<th><th>", "<td><td>", "<caption><caption>", "<fig>"})
         EXPECT_THAT(html, Not(HasSubstr(raw)));
 }
 
