@@ -1,5 +1,8 @@
 #include "client/partition/division.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "common/base/check.h"
 
 namespace swath {
@@ -32,12 +35,17 @@ FramePlan begin_plan(const PartitionInput& input, std::vector<Item>& items) {
 ServerShare share_of(std::span<const Item> items, const Rect& tile) {
     ServerShare share;
     if (!tile.empty()) share.tile = {tile};
-    share.group.reserve(items.size());
-    for (const Item& item : items) {
-        share.group.push_back(item.id);
-        if (item.visible)
-            share.content = bounding(share.content, {item.low[0], item.low[1], item.high[0], item.high[1]});
+    share.group.resize(items.size());
+    constexpr int kMost = std::numeric_limits<int>::max();
+    Rect visible{kMost, kMost, 0, 0};
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const Item& item = items[i];
+        share.group[i] = item.id;
+        if (!item.visible) continue;
+        visible = {std::min(visible.x0, item.low[0]), std::min(visible.y0, item.low[1]),
+                   std::max(visible.x1, item.high[0]), std::max(visible.y1, item.high[1])};
     }
+    if (!visible.empty()) share.content = visible;
     return share;
 }
 

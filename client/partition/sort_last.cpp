@@ -5,7 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "client/partition/sweep.h"
 #include "common/base/check.h"
 
 namespace swath {
@@ -17,11 +16,11 @@ constexpr int kTilePixels = 80;
 // 0..count-1 by ascending key, then number. Keys are gathered first: comparing through two tables is several
 // times slower.
 template <class Key>
-std::vector<std::uint32_t> ascending(std::size_t count, const Key& key) {
-    std::vector<std::pair<float, std::uint32_t>> keyed(count);
-    for (std::uint32_t i = 0; i < count; ++i) keyed[i] = {key(i), i};
+std::vector<ObjectId> ascending(std::size_t count, const Key& key) {
+    std::vector<std::pair<float, ObjectId>> keyed(count);
+    for (ObjectId id = 0; id < count; ++id) keyed[id] = {key(id), id};
     std::sort(keyed.begin(), keyed.end());
-    std::vector<std::uint32_t> order(count);
+    std::vector<ObjectId> order(count);
     for (std::size_t i = 0; i < count; ++i) order[i] = keyed[i].second;
     return order;
 }
@@ -45,15 +44,24 @@ void deal_tiles(const View& view, std::span<ServerShare> servers) {
 
 struct SortLast::Split {
     const std::vector<Object>& objects;
-    const std::vector<ObjectId>& group;
     glm::length_t axis;
-    float upper(std::uint32_t i) const { return objects[group[i]].box.max[axis]; }
-    float lower(std::uint32_t i) const { return objects[group[i]].box.min[axis]; }
-    std::uint64_t work(std::uint32_t i) const { return objects[group[i]].triangle_count; }
+    float upper(ObjectId id) const { return objects[id].box.max[axis]; }
+    float lower(ObjectId id) const { return objects[id].box.min[axis]; }
+    std::uint64_t work(ObjectId id) const { return objects[id].triangle_count; }
 };
 
 SortLast::SortLast(std::span<const Object> objects) : objects_(objects.begin(), objects.end()) {
     CHECK(objects_.size() <= kMaxObjects);
+    sorted_.by_id.resize(objects_.size());
+    std::iota(sorted_.by_id.begin(), sorted_.by_id.end(), ObjectId{0});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Split split{objects_, static_cast<glm::length_t>(axis)};
+        sorted_.from_left[axis] = ascending(objects_.size(), [&](ObjectId id) { return split.upper(id); });
+        sorted_.from_right[axis] = ascending(objects_.size(), [&](ObjectId id) { return split.lower(id); });
+        std::reverse(sorted_.from_right[axis].begin(), sorted_.from_right[axis].end());
+    }
+    sides_.resize(objects_.size());
+    right_.resize(objects_.size());
 }
 
 FramePlan SortLast::partition(const PartitionInput& input) {
@@ -65,9 +73,8 @@ FramePlan SortLast::partition(const PartitionInput& input) {
 
     if (groups_.size() != input.servers) {
         groups_.assign(input.servers, {});
-        std::vector<ObjectId> all(objects_.size());
-        std::iota(all.begin(), all.end(), ObjectId{0});
-        divide(std::move(all), 0, input.servers);
+        Orders orders = sorted_;
+        divide(orders, 0, objects_.size(), 0, input.servers);
     }
     FramePlan plan;
     plan.frame = input.frame;
@@ -84,33 +91,49 @@ FramePlan SortLast::partition(const PartitionInput& input) {
     return plan;
 }
 
-void SortLast::divide(std::vector<ObjectId> group, std::size_t first_server, std::size_t servers) {
+void SortLast::divide(Orders& orders, std::size_t begin, std::size_t end, std::size_t first_server,
+                      std::size_t servers) {
+    const std::span<const ObjectId> group(orders.by_id.data() + begin, end - begin);
     if (servers == 1) {
-        groups_[first_server] = std::move(group);
+        groups_[first_server].assign(group.begin(), group.end());
         return;
     }
     Box bounds;
-    for (const ObjectId id : group) bounds.extend(objects_[id].box);
-    const Split split{objects_, group, static_cast<glm::length_t>(bounds.longest_axis())};
-
-    const std::vector<std::uint32_t> from_left =
-        ascending(group.size(), [&](std::uint32_t i) { return split.upper(i); });
-    std::vector<std::uint32_t> from_right =
-        ascending(group.size(), [&](std::uint32_t i) { return split.lower(i); });
-    std::reverse(from_right.begin(), from_right.end());
-    std::vector<Side> sides(group.size(), Side::kNone);
+    for (const ObjectId id : group) {
+        bounds.extend(objects_[id].box);
+        sides_[id] = Side::kNone;
+    }
+    const auto axis = static_cast<std::size_t>(bounds.longest_axis());
+    const Split split{objects_, static_cast<glm::length_t>(axis)};
     const SplitServers halves(servers);
     // Groups only: nothing is cut in model space, so where the lines end does not matter.
     const SweepLines<float> ends{bounds.min[split.axis], bounds.max[split.axis]};
-    sweep(std::span<const std::uint32_t>(from_left), std::span<const std::uint32_t>(from_right), split,
-          halves, ends, std::span<Side>(sides));
+    sweep(std::span<const ObjectId>(orders.from_left[axis].data() + begin, group.size()),
+          std::span<const ObjectId>(orders.from_right[axis].data() + begin, group.size()), split, halves,
+          ends, std::span<Side>(sides_));
 
-    std::vector<ObjectId> left;
-    std::vector<ObjectId> right;
-    for (std::size_t i = 0; i < group.size(); ++i)
-        (sides[i] == Side::kLeft ? left : right).push_back(group[i]);
-    divide(std::move(left), first_server, halves.left);
-    divide(std::move(right), first_server + halves.left, halves.right);
+    const std::size_t middle = separate(orders.by_id, begin, end);
+    for (std::size_t a = 0; a < 3; ++a) {
+        separate(orders.from_left[a], begin, end);
+        separate(orders.from_right[a], begin, end);
+    }
+    divide(orders, begin, middle, first_server, halves.left);
+    divide(orders, middle, end, first_server + halves.left, halves.right);
+}
+
+std::size_t SortLast::separate(std::vector<ObjectId>& order, std::size_t begin, std::size_t end) {
+    std::size_t left = begin;
+    std::size_t right = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+        const ObjectId id = order[i];
+        const bool is_left = sides_[id] == Side::kLeft;
+        order[left] = id;
+        right_[right] = id;
+        left += is_left ? 1 : 0;
+        right += is_left ? 0 : 1;
+    }
+    std::copy_n(right_.begin(), right, order.begin() + static_cast<std::ptrdiff_t>(left));
+    return left;
 }
 
 }  // namespace swath

@@ -24,10 +24,10 @@ struct SplitServers {
 
 // The two-line sweep that hybrid (on the screen) and sort-last (in the model) share: the side with less work
 // per server, the left one when equal, moves its line across the next item that nobody has, and gets it
-// (Samanta 2000, section 5). `from_left` and `from_right` list the same items 0..n-1, by upper end ascending
-// and by lower end descending; `sides` has n entries, all kNone, and returns the outcome. `lines` start at
-// the region's ends. Items answer upper(i), lower(i) and work(i); their work must sum to less than 2^53, so
-// that times kMaxServers it fits in 64 bits. O(n).
+// (Samanta 2000, section 5). `from_left` and `from_right` list the same n items, by upper end ascending and
+// by lower end descending; of each `sides[item]` is kNone and returns the outcome. `lines` start at the
+// region's ends. Items answer upper(i), lower(i) and work(i); their work must sum to less than 2^53, so that
+// times kMaxServers it fits in 64 bits. O(n).
 template <class Coordinate, class Items>
 SweepLines<Coordinate> sweep(std::span<const std::uint32_t> from_left,
                              std::span<const std::uint32_t> from_right, const Items& items,
@@ -37,7 +37,7 @@ SweepLines<Coordinate> sweep(std::span<const std::uint32_t> from_left,
     std::uint64_t right_work = 0;
     std::size_t next_left = 0;
     std::size_t next_right = 0;
-    for (std::size_t assigned = 0; assigned < sides.size(); ++assigned) {
+    for (std::size_t assigned = 0; assigned < from_left.size(); ++assigned) {
         // left_work / servers.left <= right_work / servers.right, without rounding
         if (left_work * servers.right <= right_work * servers.left) {
             while (sides[from_left[next_left]] != Side::kNone) ++next_left;
