@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "common/base/allocator.h"
 #include "common/program/cli.h"
+#include "sim/compare/compare.h"
 #include "sim/hardware/hardware.h"
 #include "sim/run/run.h"
 #include "sim/studies/study.h"
@@ -26,11 +28,25 @@ int main(int argc, char** argv) {
     auto* study_command = app.add_subcommand("study", "repeat the paper's studies, as a page to read");
     study_flags.add_to(*study_command);
 
+    std::vector<std::string> inputs;
+    std::string compare_out;
+    auto* compare_command =
+        app.add_subcommand("compare", "overlay speed-up curves: simulated, published, of the real cluster");
+    compare_command
+        ->add_option(
+            "FILE", inputs,
+            "[LABEL=]FILE: a table as this program writes them (or sim/published/table1.csv), or a "
+            "timeline of\nswath-client --timeline FILE.csv; those of one label make a curve and need "
+            "one of a single server")
+        ->required();
+    compare_command->add_option("--out", compare_out, "folder for compare.csv, .svg and .png")->required();
+
     std::string profile;
     auto* hardware_command = app.add_subcommand("hardware", "list hardware profiles, or explain one");
     hardware_command->add_option("PROFILE", profile, "a built-in's name or a FILE.toml");
 
     if (const auto code = parse_options(app, argc, argv)) return *code;
+    tune_allocator();
     Status status;
     if (run_command->parsed()) {
         auto scenario = run_flags.read();
@@ -41,6 +57,9 @@ int main(int argc, char** argv) {
         auto studies = study_flags.read();
         if (!studies) return usage_error(studies.error());
         status = run_studies(*studies);
+    } else if (compare_command->parsed()) {
+        const auto curves = read_curves(inputs);
+        status = curves ? write_comparison(*curves, compare_out) : tl::unexpected(curves.error());
     } else if (profile.empty()) {
         for (const std::string& name : builtin_hardware())
             std::cout << name << "  " << find_hardware(name)->about << '\n';

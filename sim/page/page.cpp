@@ -14,8 +14,9 @@ body { font: 16px/1.55 system-ui, sans-serif; color: var(--ink); background: var
 h1 { font-size: 1.9rem; line-height: 1.2; } h2 { margin-top: 3rem; border-top: 1px solid var(--line); padding-top: 1.2rem; }
 p, .note { max-width: 46rem; } a { color: inherit; }
 .note { background: var(--warn); padding: .6rem .9rem; border-radius: .4rem; }
-.scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .2rem .6rem; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
+.scroll { overflow-x: auto; margin: 1.2rem 0; } table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .2rem .5rem; text-align: right; border-bottom: 1px solid var(--line); }
+td { white-space: nowrap; } th { vertical-align: bottom; }
 th:first-child, td:first-child { text-align: left; } thead th { border-bottom: 2px solid var(--soft); }
 caption, figcaption { text-align: left; color: var(--soft); font-size: .88rem; padding: .3rem 0; caption-side: bottom; }
 figure { margin: 1.5rem 0; } .row { display: flex; flex-wrap: wrap; gap: 1rem; }

@@ -13,9 +13,9 @@ namespace swath::sim {
 namespace {
 
 // Okabe and Ito, "Color Universal Design" (2008): eight colours that colour-blind people tell apart; without
-// black, and yellow last.
+// yellow, which is hard to see on white.
 constexpr std::array<std::string_view, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                   "#e69f00", "#56b4e9", "#f0e442"};
+                                                   "#e69f00", "#56b4e9", "#000000"};
 // Marks that differ in shape too, filled: circle, square, triangle, diamond, triangle down, pentagon.
 constexpr std::array<int, 6> kMarks{7, 5, 9, 13, 11, 15};
 // The same, open: for points without a line.
@@ -42,9 +42,12 @@ std::string tic(std::string_view name) {
     return literal(format);
 }
 
-Status check_number(double value, const std::string& of) {
-    if (std::isfinite(value)) return {};
-    return fail("cannot draw '{}': {} is not a finite number", printable(of), value);
+// Axes begin at 0.
+Status check_value(double value, const std::string& of) {
+    if (!std::isfinite(value))
+        return fail("cannot draw '{}': {} is not a finite number", printable(of), value);
+    if (value < 0) return fail("cannot draw '{}': {} is less than 0", printable(of), value);
+    return {};
 }
 
 // What all pictures share.
@@ -88,8 +91,8 @@ std::string style_of(const Series& series, std::size_t place) {
 
 Result<std::string> script_of(const Plot& plot) {
     std::string script = frame(plot.title, plot.x_label, plot.y_label);
-    if (plot.log2_x) script += "set logscale x 2\n";
-    script += "set offsets graph 0.02, graph 0.02, graph 0.05, 0\n";
+    script +=
+        plot.log2_x ? "set logscale x 2\nset offsets graph 0.02, graph 0.02, 0, 0\n" : "set xrange [0:*]\n";
     std::string command;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
         const Series& series = plot.series[i];
@@ -97,7 +100,7 @@ Result<std::string> script_of(const Plot& plot) {
         script += fmt::format("$data{} << END\n", i);
         for (const auto& [x, y] : series.points) {
             for (const double value : {x, y})
-                if (const Status drawable = check_number(value, series.name); !drawable)
+                if (const Status drawable = check_value(value, series.name); !drawable)
                     return tl::unexpected(drawable.error());
             if (plot.log2_x && x <= 0)
                 return fail("cannot draw '{}': {} is not on a logarithmic axis", printable(series.name), x);
@@ -133,11 +136,8 @@ Result<std::string> script_of(const Bars& bars) {
             CHECK(bar.values.size() == bars.segments.size());
             double bottom = 0;
             for (std::size_t i = 0; i < bar.values.size(); ++i) {
-                if (const Status drawable = check_number(bar.values[i], bars.segments[i]); !drawable)
+                if (const Status drawable = check_value(bar.values[i], bars.segments[i]); !drawable)
                     return tl::unexpected(drawable.error());
-                if (bar.values[i] < 0)
-                    return fail("cannot draw '{}': {} is less than 0", printable(bars.segments[i]),
-                                bar.values[i]);
                 const double top = bottom + bar.values[i];
                 has_stacks |= top > bottom && bottom > 0;
                 if (top > bottom)

@@ -36,25 +36,23 @@ Plot figure_12(const StudyContext& context, const std::string& name, const std::
     return plot;
 }
 
+double overhead(const Results& results, Algorithm algorithm, const StudyModel& model, std::size_t servers) {
+    return (results.value(algorithm, model.name, servers, "server_total") /
+                results.value(algorithm, model.name, servers, "ideal_render") -
+            1) *
+           100;
+}
+
 Plot figure_13(const Results& results, const std::string& name, const std::list<StudyModel>& models) {
-    Plot plot{fmt::format("Overhead of servers, {}", name),
-              "Servers",
-              "Overhead (% of ideal rendering)",
-              false,
-              {}};
+    Plot plot{
+        fmt::format("Overhead of servers, {}", name), "Objects", "Overhead (% of ideal rendering)", true, {}};
     std::size_t colour = 0;
     for (const Algorithm algorithm : kAlgorithms) {
-        for (const StudyModel& model : models) {
-            const std::size_t objects = model.scene.objects.size();
-            const Style style = &model == &models.front()  ? Style::kPoints
-                                : &model == &models.back() ? Style::kLine
-                                                           : Style::kDashed;
-            Series series{fmt::format("{}, {} objects", table_name(algorithm), objects), {}, style, colour};
-            for (const std::size_t servers : kPaperServers) {
-                const double ideal = results.value(algorithm, model.name, servers, "ideal_render");
-                const double total = results.value(algorithm, model.name, servers, "server_total");
-                series.points.emplace_back(servers, (total / ideal - 1) * 100);
-            }
+        for (const auto& [servers, style] : {std::pair{64u, Style::kLine}, std::pair{16u, Style::kDashed}}) {
+            Series series{fmt::format("{}, {} servers", table_name(algorithm), servers), {}, style, colour};
+            for (const StudyModel& model : models)
+                series.points.emplace_back(model.scene.objects.size(),
+                                           overhead(results, algorithm, model, servers));
             plot.series.push_back(std::move(series));
         }
         ++colour;
@@ -121,16 +119,13 @@ Status granularity(StudyContext& context) {
         return status;
     PageTable table{{"objects", "servers", "hybrid", "sort-first", "sort-last"}, {}};
     for (const StudyModel& model : *models) {
-        for (const std::size_t servers : {kPaperServers.front(), kPaperServers.back()}) {
-            const auto overhead = [&](Algorithm algorithm) {
-                const double ideal = results.value(algorithm, model.name, servers, "ideal_render");
-                return fmt::format(
-                    "{:.0f} %",
-                    (results.value(algorithm, model.name, servers, "server_total") / ideal - 1) * 100);
+        for (const std::size_t servers : kPaperServers) {
+            const auto cell = [&](Algorithm algorithm) {
+                return fmt::format("{:.0f} %", overhead(results, algorithm, model, servers));
             };
             table.rows.push_back({std::to_string(model.scene.objects.size()), std::to_string(servers),
-                                  overhead(Algorithm::kHybrid), overhead(Algorithm::kMahd),
-                                  overhead(Algorithm::kSortLast)});
+                                  cell(Algorithm::kHybrid), cell(Algorithm::kMahd),
+                                  cell(Algorithm::kSortLast)});
         }
     }
     page.table(table, fmt::format("Overhead over ideal rendering, {}.", name));

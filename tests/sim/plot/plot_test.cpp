@@ -137,6 +137,8 @@ TEST(Draw, NamesWhatCannotBeDrawn) {
     EXPECT_EQ(draw(plot, "/tmp/x").error().message, "cannot draw 'hybrid': nan is not a finite number");
     plot.series[1].points[0] = {0, 1};
     EXPECT_EQ(draw(plot, "/tmp/x").error().message, "cannot draw 'hybrid': 0 is not on a logarithmic axis");
+    plot.series[1].points[0] = {8, -1};
+    EXPECT_EQ(draw(plot, "/tmp/x").error().message, "cannot draw 'hybrid': -1 is less than 0");
     plot.series.clear();
     EXPECT_EQ(draw(plot, "/tmp/x").error().message, "nothing to draw in 'Speed-up'");
     Bars bars = server_times();
