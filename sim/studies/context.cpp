@@ -20,7 +20,7 @@ struct PaperModel {
     double zoom;
     std::string_view stand_in;  // where the mesh is not to be had
 };
-constexpr std::array kPaperModels{PaperModel{"hand", 1.17, "builtin:hand"}, PaperModel{"dragon", 1.06, ""},
+constexpr std::array kPaperModels{PaperModel{"hand", 1.25, "builtin:hand"}, PaperModel{"dragon", 1.06, ""},
                                   PaperModel{"buddha", 1.33, ""}};
 
 std::string lower(std::string text) {
