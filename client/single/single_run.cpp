@@ -20,7 +20,7 @@ Result<std::vector<FrameTimeline>> render_single(
     PixelFrame pixels;
     for (FrameNumber number = 0; number < job.cameras.size(); ++number) {
         MachineTimeline machine;
-        machine.machine = "single";
+        machine.machine = kSingleMachine;
         PhaseTimer timer(clock, machine.spans);
         const View view = make_view(job.cameras[number], job.width, job.height);
         const auto visible = cull(job.scene->objects, all, view);

@@ -96,7 +96,7 @@ Json complete_event(const PlacedSpan& placed, std::size_t pid, Nanoseconds origi
 
 std::string to_csv(std::span<const FrameTimeline> frames) {
     const Nanoseconds origin = earliest_begin(frames);
-    std::string csv = "frame,machine,kind,name,begin_ms,end_ms,cpu_ms,value\n";
+    std::string csv = fmt::format("{}\n", kTimelineHeader);
     const auto out = std::back_inserter(csv);
     for (const FrameTimeline& frame : frames) {
         fmt::format_to(out, "{},,frame,overlap_factor,,,,{:.6f}\n", frame.frame, frame.overlap_factor);

@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "common/timeline/timeline.h"
 
@@ -9,9 +10,10 @@ namespace swath {
 // Both exports are deterministic: equal timelines give equal text, whatever the locale. Times are relative to
 // the earliest span of all frames.
 
-// Tidy CSV, ended lines, fields quoted where RFC 4180 asks for it:
-//   frame,machine,kind,name,begin_ms,end_ms,cpu_ms,value
-// A row per span (kind "span", value empty; six decimals, so exact nanoseconds; cpu_ms is 0 where unknown),
+inline constexpr std::string_view kTimelineHeader = "frame,machine,kind,name,begin_ms,end_ms,cpu_ms,value";
+
+// Tidy CSV with that header, ended lines, fields quoted where RFC 4180 asks for it; import.h reads it back. A
+// row per span (kind "span", value empty; six decimals, so exact nanoseconds; cpu_ms is 0 where unknown),
 // per non-zero counter (kind "counter", times empty) and one per frame (kind "frame", name "overlap_factor",
 // machine and times empty).
 std::string to_csv(std::span<const FrameTimeline> frames);

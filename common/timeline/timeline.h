@@ -54,6 +54,8 @@ struct Span {
 // servers by these names, so whoever records or simulates a server's time takes its name from here.
 std::string server_name(ServerId id);
 bool is_server(std::string_view machine);
+// The one process of `swath-client --single`, which is all three.
+inline constexpr std::string_view kSingleMachine = "single";
 
 // One machine's part of a frame.
 struct MachineTimeline {

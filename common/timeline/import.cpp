@@ -1,0 +1,136 @@
+#include "common/timeline/import.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "common/base/csv.h"
+#include "common/base/file.h"
+#include "common/timeline/export.h"
+
+namespace swath {
+namespace {
+
+constexpr std::uint64_t kMaxFileBytes = 512ull << 20;
+constexpr double kMaxMs = 1e10;  // some months, in which a double still has single nanoseconds
+
+enum Field : std::size_t { kFrame, kMachine, kKind, kName, kBegin, kEnd, kCpu, kValue };
+
+template <class T>
+bool parse_all(std::string_view text, T& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
+}
+
+// The phase or counter of the name.
+template <class T>
+std::optional<T> named(std::string_view text, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+        if (name(static_cast<T>(i)) == text) return static_cast<T>(i);
+    return std::nullopt;
+}
+
+Result<Nanoseconds> time(std::string_view field, std::string_view text) {
+    double ms = 0;
+    if (!parse_all(text, ms) || !(std::abs(ms) <= kMaxMs))
+        return fail("{}: '{}' is not a time in ms", field, text);
+    return Nanoseconds(std::llround(ms * 1e6));
+}
+
+// Takes one row after the other.
+class Reader {
+  public:
+    Status take(const CsvRecord& record) {
+        const std::vector<std::string>& fields = record.fields;
+        FrameNumber number{};
+        if (!parse_all(fields[kFrame], number)) return fail("frame: '{}' is not a number", fields[kFrame]);
+        if (fields[kKind] == "frame") return begin_frame(number, fields);
+        if (frames_.empty() || frames_.back().frame != number)
+            return fail("frame: {} has not begun with a row of kind frame", number);
+        if (fields[kMachine].empty()) return fail("machine is empty");
+        if (fields[kKind] == "span") return add_span(fields);
+        if (fields[kKind] == "counter") return add_count(fields);
+        return fail("kind: '{}' is not frame, span or counter", fields[kKind]);
+    }
+
+    std::vector<FrameTimeline> frames() { return std::move(frames_); }
+
+  private:
+    static Status expect_empty(const std::vector<std::string>& fields, std::initializer_list<Field> empty) {
+        for (const Field field : empty)
+            if (!fields[field].empty())
+                return fail("'{}' where a row of kind {} has nothing", fields[field], fields[kKind]);
+        return {};
+    }
+
+    Status begin_frame(FrameNumber number, const std::vector<std::string>& fields) {
+        if (const Status empty = expect_empty(fields, {kMachine, kBegin, kEnd, kCpu}); !empty) return empty;
+        if (fields[kName] != "overlap_factor") return fail("name: '{}' is not overlap_factor", fields[kName]);
+        if (!frames_.empty() && number <= frames_.back().frame)
+            return fail("frame: {} comes after {}", number, frames_.back().frame);
+        FrameTimeline frame{number, {}, 1.0};
+        if (!parse_all(fields[kValue], frame.overlap_factor) || !std::isfinite(frame.overlap_factor) ||
+            frame.overlap_factor < 0)
+            return fail("value: '{}' is not an overlap factor", fields[kValue]);
+        frames_.push_back(std::move(frame));
+        return {};
+    }
+
+    Result<MachineTimeline*> machine(const std::string& name) {
+        std::vector<MachineTimeline>& machines = frames_.back().machines;
+        if (!machines.empty() && machines.back().machine == name) return &machines.back();
+        for (const MachineTimeline& earlier : machines)
+            if (earlier.machine == name) return fail("machine: '{}' is there twice in a frame", name);
+        return &machines.emplace_back(MachineTimeline{name, {}, {}});
+    }
+
+    Status add_span(const std::vector<std::string>& fields) {
+        const auto phase = named<Phase>(fields[kName], kPhaseCount);
+        if (!phase) return fail("name: '{}' is not a phase", fields[kName]);
+        const auto begin = time("begin_ms", fields[kBegin]);
+        if (!begin) return tl::unexpected(begin.error());
+        const auto end = time("end_ms", fields[kEnd]);
+        if (!end) return tl::unexpected(end.error());
+        const auto cpu = time("cpu_ms", fields[kCpu]);
+        if (!cpu) return tl::unexpected(cpu.error());
+        if (const Status empty = expect_empty(fields, {kValue}); !empty) return empty;
+        const auto to = machine(fields[kMachine]);
+        if (!to) return tl::unexpected(to.error());
+        (*to)->spans.push_back({*phase, *begin, *end, *cpu});
+        return {};
+    }
+
+    Status add_count(const std::vector<std::string>& fields) {
+        const auto counter = named<Counter>(fields[kName], kCounterCount);
+        if (!counter) return fail("name: '{}' is not a counter", fields[kName]);
+        if (const Status empty = expect_empty(fields, {kBegin, kEnd, kCpu}); !empty) return empty;
+        std::uint64_t count = 0;
+        if (!parse_all(fields[kValue], count)) return fail("value: '{}' is not a count", fields[kValue]);
+        const auto to = machine(fields[kMachine]);
+        if (!to) return tl::unexpected(to.error());
+        (**to)[*counter] = count;
+        return {};
+    }
+
+    std::vector<FrameTimeline> frames_;
+};
+
+}  // namespace
+
+Result<std::vector<FrameTimeline>> parse_timeline(std::string_view csv, std::string_view source) {
+    const auto records = parse_csv(csv, kTimelineHeader, source);
+    if (!records) return tl::unexpected(records.error());
+    Reader reader;
+    for (std::size_t i = 1; i < records->size(); ++i)
+        if (const Status taken = reader.take((*records)[i]); !taken)
+            return fail_in(fmt::format("{}:{}", source, (*records)[i].line), taken.error());
+    return reader.frames();
+}
+
+Result<std::vector<FrameTimeline>> read_timeline(const std::filesystem::path& file) {
+    const Result<Buffer> bytes = read_file(file, kMaxFileBytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return parse_timeline({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
+}
+
+}  // namespace swath
