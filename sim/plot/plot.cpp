@@ -13,9 +13,9 @@ namespace swath::sim {
 namespace {
 
 // Okabe and Ito, "Color Universal Design" (2008): eight colours that colour-blind people tell apart; without
-// black, and yellow last.
+// yellow, which is hard to see on white.
 constexpr std::array<std::string_view, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                   "#e69f00", "#56b4e9", "#f0e442"};
+                                                   "#e69f00", "#56b4e9", "#000000"};
 // Marks that differ in shape too, filled: circle, square, triangle, diamond, triangle down, pentagon.
 constexpr std::array<int, 6> kMarks{7, 5, 9, 13, 11, 15};
 // The same, open: for points without a line.
@@ -57,7 +57,7 @@ std::string frame(const std::string& title, const std::string& x_label, const st
     script += fmt::format("set title {} textcolor rgb '{}'\n", text(title), kText);
     if (!x_label.empty()) script += fmt::format("set xlabel {} textcolor rgb '{}'\n", text(x_label), kText);
     script += fmt::format("set ylabel {} textcolor rgb '{}'\n", text(y_label), kText);
-    return script + "set yrange [0:*]\n";
+    return script + "set yrange [*<0:*]\n";
 }
 
 // A place among so many, however large the number.
@@ -88,8 +88,8 @@ std::string style_of(const Series& series, std::size_t place) {
 
 Result<std::string> script_of(const Plot& plot) {
     std::string script = frame(plot.title, plot.x_label, plot.y_label);
-    if (plot.log2_x) script += "set logscale x 2\n";
-    script += "set offsets graph 0.02, graph 0.02, graph 0.05, 0\n";
+    script +=
+        plot.log2_x ? "set logscale x 2\nset offsets graph 0.02, graph 0.02, 0, 0\n" : "set xrange [*<0:*]\n";
     std::string command;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
         const Series& series = plot.series[i];

@@ -24,14 +24,16 @@ Result<std::pair<std::string, double>> parse_zoom(const std::string& text) {
 }  // namespace
 
 void StudyFlags::add_to(CLI::App& app) {
-    app.add_option("NAME", names_, fmt::format("which: {}, or all", fmt::join(study_names(), ", ")))->required();
+    app.add_option("NAME", names_, fmt::format("which: {}, or all", fmt::join(study_names(), ", ")))
+        ->required();
     app.add_option("--model", models_,
                    "NAME=FILE, repeatable: hand, dragon and buddha are shown beside the paper's figures, any "
                    "other name goes [models/dragon.ply and so on, as far as they are there]");
     app.add_option("--zoom", zooms_,
                    "MODEL=ZOOM, repeatable [dragon=1.06, buddha=1.33, others 1: what the paper's screen "
                    "coverage suggests]");
-    app.add_option("--hardware", options_.hardware, "a profile's name (see swath-sim hardware) or a FILE.toml")
+    app.add_option("--hardware", options_.hardware,
+                   "a profile's name (see swath-sim hardware) or a FILE.toml")
         ->capture_default_str();
     app.add_option("--frames", options_.frames, "of a camera path")
         ->capture_default_str()

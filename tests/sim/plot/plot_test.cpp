@@ -95,6 +95,13 @@ TEST(Draw, ShowsTheNumbers) {
     EXPECT_NE(drawn(server_times()).svg, drawn(taller).svg);
 }
 
+TEST(Draw, BeginsAxesAtZeroOrAtTheLeastNumber) {
+    Plot plot{"", "", "", false, {{"a", {{20, 30}, {40, 90}}}}};
+    EXPECT_THAT(drawn(plot).svg, testing::AllOf(HasSubstr("<text> 0</text>"), Not(HasSubstr("<text>-"))));
+    plot.series[0].points[0] = {20, -30};
+    EXPECT_THAT(drawn(plot).svg, HasSubstr("<text>-40</text>"));
+}
+
 TEST(Draw, WritesTheSameBytesAgain) {
     const Drawn first = drawn(speed_up());
     const Drawn second = drawn(speed_up());

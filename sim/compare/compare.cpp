@@ -1,0 +1,177 @@
+#include "sim/compare/compare.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "common/base/file.h"
+#include "common/timeline/export.h"
+#include "common/timeline/import.h"
+#include "common/timeline/summary.h"
+#include "sim/plot/plot.h"
+#include "sim/table/table.h"
+
+namespace swath::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kColumn = "speedup";
+constexpr std::uint64_t kMaxFileBytes = 512ull << 20;
+
+struct Input {
+    std::string label;
+    std::string file;
+};
+
+Result<Input> parse_input(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    std::error_code ignored;
+    // A file whose name has an equals sign needs no label.
+    if (equals == std::string::npos || fs::exists(text, ignored)) return Input{fs::path(text).stem(), text};
+    if (equals == 0 || equals + 1 == text.size())
+        return fail("'{}' is not LABEL=FILE: one of them is empty", text);
+    return Input{text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// Puts the point where it belongs; `what` is what has two of them otherwise.
+Status add(Curve& curve, std::size_t servers, double speedup, std::string_view file) {
+    const auto place =
+        std::ranges::lower_bound(curve.points, servers, {}, [](const auto& p) { return p.first; });
+    if (place != curve.points.end() && place->first == servers)
+        return fail("{}: a second speed-up of {} with {} server{}", file, curve.name, servers,
+                    servers == 1 ? "" : "s");
+    curve.points.emplace(place, servers, speedup);
+    return {};
+}
+
+Status add_table(const Input& input, std::string_view text, std::vector<Curve>& curves) {
+    const auto rows = parse_table(text, input.file);
+    if (!rows) return tl::unexpected(rows.error());
+    std::vector<Curve> found;
+    for (const Row& row : *rows) {
+        if (row.column != kColumn) continue;
+        const std::string name = fmt::format("{}, {}", row.algorithm, row.model);
+        if (row.servers == 0 || !(row.value > 0))
+            return fail("{}: {} has a speed-up of {} with {} servers", input.file, name, row.value,
+                        row.servers);
+        auto curve = std::ranges::find(found, name, &Curve::name);
+        if (curve == found.end()) curve = found.insert(found.end(), {input.label, name, {}});
+        if (const Status added = add(*curve, row.servers, row.value, input.file); !added) return added;
+    }
+    if (found.empty()) return fail("{}: no row has the column {}", input.file, kColumn);
+    curves.insert(curves.end(), found.begin(), found.end());
+    return {};
+}
+
+// A run of the real cluster.
+struct Run {
+    std::size_t servers = 0;
+    double frames_per_s = 0;
+};
+
+Result<Run> read_run(const Input& input, std::string_view text) {
+    const auto frames = parse_timeline(text, input.file);
+    if (!frames) return tl::unexpected(frames.error());
+    std::set<std::string_view> servers;
+    bool is_single = false;
+    for (const FrameTimeline& frame : *frames)
+        for (const MachineTimeline& machine : frame.machines) {
+            if (is_server(machine.machine)) servers.insert(machine.machine);
+            is_single |= machine.machine == kSingleMachine;
+        }
+    if (servers.empty() && !is_single) return fail("{}: the timeline names no server", input.file);
+    const double rate = summarise(*frames).frames_per_s;
+    if (!(rate > 0)) return fail("{}: the timeline takes no time", input.file);
+    return Run{std::max<std::size_t>(servers.size(), 1), rate};
+}
+
+// Turns a measured curve's frames a second into speed-ups.
+Status divide_by_one_server(Curve& curve) {
+    if (curve.points.front().first != 1)
+        return fail("{}: no timeline of one server (or --single) to compare with; label it {}=FILE",
+                    curve.label, curve.label);
+    const double one = curve.points.front().second;
+    for (auto& [servers, value] : curve.points) value /= one;
+    return {};
+}
+
+std::string full_name(const Curve& curve) {
+    return curve.name == curve.label ? curve.label : fmt::format("{}: {}", curve.label, curve.name);
+}
+
+// The place of a text among those seen so far.
+std::size_t place_of(const std::string& text, std::vector<std::string>& seen) {
+    const auto found = std::ranges::find(seen, text);
+    if (found != seen.end()) return static_cast<std::size_t>(found - seen.begin());
+    seen.push_back(text);
+    return seen.size() - 1;
+}
+
+Plot plot_of(std::span<const Curve> curves) {
+    constexpr std::array kStyles{Style::kLine, Style::kPoints, Style::kDashed};
+    Plot plot{"Speed-up", "servers", "speed-up over one server", false, {}};
+    std::vector<std::string> labels;
+    std::vector<std::string> names;
+    double most = 1;
+    for (const Curve& curve : curves) {
+        Series series{full_name(curve), {}, {}, place_of(curve.name, names)};
+        series.style = kStyles[place_of(curve.label, labels) % kStyles.size()];
+        for (const auto& [servers, speedup] : curve.points)
+            series.points.emplace_back(static_cast<double>(servers), speedup);
+        most = std::max(most, series.points.back().first);
+        plot.series.push_back(std::move(series));
+    }
+    plot.series.push_back({"ideal", {{1, 1}, {most, most}}, Style::kReference});
+    return plot;
+}
+
+}  // namespace
+
+Result<std::vector<Curve>> read_curves(std::span<const std::string> inputs) {
+    if (inputs.empty()) return fail("nothing to compare: name at least one file");
+    std::vector<Curve> curves;
+    std::set<std::string> labels_of_tables;
+    std::set<std::string> labels_of_runs;
+    for (const std::string& text : inputs) {
+        const auto input = parse_input(text);
+        if (!input) return tl::unexpected(input.error());
+        const auto bytes = read_file(input->file, kMaxFileBytes);
+        if (!bytes) return tl::unexpected(bytes.error());
+        const std::string_view content(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+        const bool is_run = content.starts_with(kTimelineHeader);
+        if ((is_run ? labels_of_tables : labels_of_runs).contains(input->label) ||
+            (!is_run && !labels_of_tables.insert(input->label).second))
+            return fail("{}: another input is called {} too; label it LABEL=FILE", input->file, input->label);
+        if (!is_run) {
+            if (const Status added = add_table(*input, content, curves); !added)
+                return tl::unexpected(added.error());
+            continue;
+        }
+        const auto run = read_run(*input, content);
+        if (!run) return tl::unexpected(run.error());
+        if (labels_of_runs.insert(input->label).second) curves.push_back({input->label, input->label, {}});
+        Curve& curve = *std::ranges::find(curves, input->label, &Curve::label);
+        if (const Status added = add(curve, run->servers, run->frames_per_s, input->file); !added)
+            return tl::unexpected(added.error());
+    }
+    for (Curve& curve : curves)
+        if (labels_of_runs.contains(curve.label))
+            if (const Status divided = divide_by_one_server(curve); !divided)
+                return tl::unexpected(divided.error());
+    return curves;
+}
+
+Status write_comparison(std::span<const Curve> curves, const fs::path& folder) {
+    std::vector<Row> rows;
+    for (const Curve& curve : curves)
+        for (const auto& [servers, speedup] : curve.points)
+            rows.push_back({curve.name, curve.label, servers, std::string(kColumn), speedup});
+    const std::string csv = to_csv(rows);
+    const std::span bytes(reinterpret_cast<const std::uint8_t*>(csv.data()), csv.size());
+    if (const Status written = write_file(folder / "compare.csv", bytes); !written) return written;
+    return draw(plot_of(curves), folder / "compare");
+}
+
+}  // namespace swath::sim
