@@ -70,7 +70,7 @@ class Cluster {
     static NetworkRates rates_of(const ClusterScenario& scenario) {
         const Hardware::Network& network = scenario.hardware.network;
         return {std::vector<NicRates>(scenario.servers + 2, {network.bytes_per_s, network.bytes_per_s}),
-                network.core_bytes_per_s, Nanoseconds(0)};
+                network.core_bytes_per_s};
     }
 
     // On the connection of the two, which is made when it is first needed.

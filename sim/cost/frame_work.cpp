@@ -16,10 +16,11 @@ class Pricer {
     explicit Pricer(const Hardware& hardware) : hardware_(hardware), server_(hardware.server) {}
 
     SwathWork swath(ServerId peer, const Region& region) const {
-        SwathWork work{peer, 0, 0, active(region) * hardware_.network.swath_bytes_per_pixel};
+        const double sent = static_cast<double>(area(region)) * hardware_.network.active_share;
+        SwathWork work{peer, 0, 0, sent * hardware_.network.swath_bytes_per_pixel};
         if (server_.compositing == Compositing::kHost) {
-            work.send_s = active(region) / server_.pack_pixels_per_s;
-            work.merge_s = active(region) / server_.merge_pixels_per_s;
+            work.send_s = sent / server_.pack_pixels_per_s;
+            work.merge_s = sent / server_.merge_pixels_per_s;
         } else {
             for (const Rect& rect : region) {
                 work.send_s += server_.colour.read_s(pixels(rect)) + server_.depth.read_s(pixels(rect));
@@ -36,22 +37,19 @@ class Pricer {
     }
 
     void add_tile(const Region& region, ServerWork& work) const {
+        const double share = hardware_.network.tile_active_share;
+        const double sent = static_cast<double>(area(region)) * share;
         work.has_tile = !region.empty();
-        work.tile_bytes = active(region) * hardware_.network.tile_bytes_per_pixel;
-        if (server_.compositing == Compositing::kHost)
-            work.final_s = active(region) / server_.pack_pixels_per_s;
+        work.tile_bytes = sent * hardware_.network.tile_bytes_per_pixel;
+        if (server_.compositing == Compositing::kHost) work.final_s = sent / server_.pack_pixels_per_s;
         for (const Rect& rect : region) {
             if (server_.compositing == Compositing::kGraphics)
                 work.final_s += server_.colour.read_s(pixels(rect));
-            work.display_s += hardware_.display.colour.write_s(pixels(rect) * hardware_.network.active_share);
+            work.display_s += hardware_.display.colour.write_s(pixels(rect) * share);
         }
     }
 
   private:
-    double active(const Region& region) const {
-        return static_cast<double>(area(region)) * hardware_.network.active_share;
-    }
-
     const Hardware& hardware_;
     const Hardware::Server& server_;
 };

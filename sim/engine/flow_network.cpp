@@ -36,11 +36,7 @@ constexpr auto later_level = [](const auto& a, const auto& b) {
 }  // namespace
 
 FlowNetwork::FlowNetwork(EventQueue& events, NetworkRates rates)
-    : events_(events),
-      latency_(rates.latency),
-      bytes_out_(rates.hosts.size()),
-      bytes_in_(rates.hosts.size()) {
-    CHECK(latency_.count() >= 0);
+    : events_(events), bytes_out_(rates.hosts.size()), bytes_in_(rates.hosts.size()) {
     const std::size_t hosts = rates.hosts.size();
     links_.resize(2 * hosts);
     for (std::size_t host = 0; host < hosts; ++host) {
@@ -67,7 +63,7 @@ void FlowNetwork::send(std::size_t from, std::size_t to, double bytes, EventQueu
         bytes_ += bytes;
     }
     if (from == to || bytes == 0) {
-        events_.after(latency_, std::move(arrived));
+        events_.after(Nanoseconds(0), std::move(arrived));
         return;
     }
     Index flow = static_cast<Index>(flows_.size());
@@ -78,10 +74,7 @@ void FlowNetwork::send(std::size_t from, std::size_t to, double bytes, EventQueu
         free_flows_.pop_back();
     }
     flows_[flow] = {static_cast<Index>(from), static_cast<Index>(to), bytes, sent_++, std::move(arrived)};
-    if (latency_.count() == 0)
-        begin(flow);
-    else
-        events_.after(latency_, [this, flow] { begin(flow); });
+    begin(flow);
 }
 
 double FlowNetwork::rate(std::size_t from, std::size_t to) const {

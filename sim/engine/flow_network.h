@@ -19,7 +19,6 @@ struct NicRates {
 struct NetworkRates {
     std::vector<NicRates> hosts;
     std::optional<double> core;  // bytes a second that all flows together can have; without: no limit
-    Nanoseconds latency{0};      // of every message, before its first byte flows
 };
 
 // A crossbar between machines. Messages are fluid flows: at every moment the flows in progress share the
@@ -38,14 +37,14 @@ struct NetworkRates {
 // changed are taken over, which spares their links the logarithm.
 class FlowNetwork {
   public:
-    // Rates are positive and finite, the latency is not negative (CHECKed).
+    // Rates are positive and finite (CHECKed).
     FlowNetwork(EventQueue& events, NetworkRates rates);
     FlowNetwork(const FlowNetwork&) = delete;
     FlowNetwork& operator=(const FlowNetwork&) = delete;
 
-    // `arrived` is called when the last byte is there: after the latency, and the time the bytes take. Hosts
-    // are places in NetworkRates::hosts; a message to oneself, or of no bytes, takes the latency alone. bytes
-    // >= 0, finite, and few enough to arrive within 4e18 ns (127 years). (All CHECKed.)
+    // `arrived` is called when the last byte is there. Hosts are places in NetworkRates::hosts; a message to
+    // oneself, or of no bytes, takes no time. bytes >= 0, finite, and few enough to arrive within 4e18 ns
+    // (127 years). (All CHECKed.) Latency and order are a Stream's.
     void send(std::size_t from, std::size_t to, double bytes, EventQueue::Action arrived);
 
     // Bytes that have left and entered a host so far, those under way included in full, those of messages to
@@ -128,7 +127,6 @@ class FlowNetwork {
     Nanoseconds end_of(const Pair& pair) const;
 
     EventQueue& events_;
-    Nanoseconds latency_;
     std::vector<Link> links_;  // out of each host, then into each host
     Link core_;                // without: of no rate
     std::vector<double> bytes_out_;

@@ -42,12 +42,9 @@ std::string tic(std::string_view name) {
     return literal(format);
 }
 
-// Axes begin at 0.
-Status check_value(double value, const std::string& of) {
-    if (!std::isfinite(value))
-        return fail("cannot draw '{}': {} is not a finite number", printable(of), value);
-    if (value < 0) return fail("cannot draw '{}': {} is less than 0", printable(of), value);
-    return {};
+Status check_number(double value, const std::string& of) {
+    if (std::isfinite(value)) return {};
+    return fail("cannot draw '{}': {} is not a finite number", printable(of), value);
 }
 
 // What all pictures share.
@@ -60,7 +57,7 @@ std::string frame(const std::string& title, const std::string& x_label, const st
     script += fmt::format("set title {} textcolor rgb '{}'\n", text(title), kText);
     if (!x_label.empty()) script += fmt::format("set xlabel {} textcolor rgb '{}'\n", text(x_label), kText);
     script += fmt::format("set ylabel {} textcolor rgb '{}'\n", text(y_label), kText);
-    return script + "set yrange [0:*]\n";
+    return script + "set yrange [*<0:*]\n";
 }
 
 // A place among so many, however large the number.
@@ -92,7 +89,7 @@ std::string style_of(const Series& series, std::size_t place) {
 Result<std::string> script_of(const Plot& plot) {
     std::string script = frame(plot.title, plot.x_label, plot.y_label);
     script +=
-        plot.log2_x ? "set logscale x 2\nset offsets graph 0.02, graph 0.02, 0, 0\n" : "set xrange [0:*]\n";
+        plot.log2_x ? "set logscale x 2\nset offsets graph 0.02, graph 0.02, 0, 0\n" : "set xrange [*<0:*]\n";
     std::string command;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
         const Series& series = plot.series[i];
@@ -100,7 +97,7 @@ Result<std::string> script_of(const Plot& plot) {
         script += fmt::format("$data{} << END\n", i);
         for (const auto& [x, y] : series.points) {
             for (const double value : {x, y})
-                if (const Status drawable = check_value(value, series.name); !drawable)
+                if (const Status drawable = check_number(value, series.name); !drawable)
                     return tl::unexpected(drawable.error());
             if (plot.log2_x && x <= 0)
                 return fail("cannot draw '{}': {} is not on a logarithmic axis", printable(series.name), x);
@@ -136,8 +133,11 @@ Result<std::string> script_of(const Bars& bars) {
             CHECK(bar.values.size() == bars.segments.size());
             double bottom = 0;
             for (std::size_t i = 0; i < bar.values.size(); ++i) {
-                if (const Status drawable = check_value(bar.values[i], bars.segments[i]); !drawable)
+                if (const Status drawable = check_number(bar.values[i], bars.segments[i]); !drawable)
                     return tl::unexpected(drawable.error());
+                if (bar.values[i] < 0)
+                    return fail("cannot draw '{}': {} is less than 0", printable(bars.segments[i]),
+                                bar.values[i]);
                 const double top = bottom + bar.values[i];
                 has_stacks |= top > bottom && bottom > 0;
                 if (top > bottom)

@@ -18,7 +18,7 @@ enum class Style {
 
 struct Series {
     std::string name;
-    std::vector<std::pair<double, double>> points;  // 0 or more: axes begin there
+    std::vector<std::pair<double, double>> points;  // axes begin at 0 where none is less
     Style style = Style::kLine;
     std::optional<std::size_t> colour = std::nullopt;  // series of one number match; without: its place
 };

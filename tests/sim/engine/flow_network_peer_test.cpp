@@ -14,6 +14,7 @@ namespace {
 struct PeerSet {
     std::string name;
     NetworkRates rates;
+    Nanoseconds latency{0};
     std::vector<test::TestFlow> flows;
     std::vector<Nanoseconds> finished;
 };
@@ -33,7 +34,7 @@ std::vector<PeerSet> read_sets() {
             std::int64_t latency = 0;
             line >> set.name >> hosts >> core >> latency;
             if (core > 0) set.rates.core = core;
-            set.rates.latency = Nanoseconds(latency);
+            set.latency = Nanoseconds(latency);
         } else if (kind == "host") {
             NicRates& nic = sets.back().rates.hosts.emplace_back();
             line >> nic.out >> nic.in;
@@ -58,7 +59,7 @@ TEST(FlowNetwork, AgreesWithSimGridsFluidModel) {
     for (const PeerSet& set : sets) {
         SCOPED_TRACE(set.name);
         ASSERT_FALSE(set.flows.empty());
-        const std::vector<Nanoseconds> times = test::arrivals(set.rates, set.flows);
+        const std::vector<Nanoseconds> times = test::arrivals(set.rates, set.flows, set.latency);
         for (std::size_t i = 0; i < set.flows.size(); ++i) {
             const auto taken = static_cast<double>((times[i] - set.flows[i].start).count());
             const auto expected = static_cast<double>((set.finished[i] - set.flows[i].start).count());

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <list>
+
+#include "sim/engine/stream.h"
 
 namespace swath::sim::test {
 namespace {
@@ -31,14 +34,17 @@ std::vector<TestFlow> random_flows(std::mt19937_64& random, std::size_t hosts, s
     return all;
 }
 
-std::vector<Nanoseconds> arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows) {
+std::vector<Nanoseconds> arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows,
+                                  Nanoseconds latency) {
     EventQueue events;
     FlowNetwork network(events, rates);
+    std::list<Stream> streams;
     std::vector<Nanoseconds> times(flows.size(), Nanoseconds(-1));
-    for (std::size_t i = 0; i < flows.size(); ++i)
-        events.at(flows[i].start, [&, i] {
-            network.send(flows[i].from, flows[i].to, flows[i].bytes, [&, i] { times[i] = events.now(); });
-        });
+    for (std::size_t i = 0; i < flows.size(); ++i) {
+        Stream& stream = streams.emplace_back(events, network, latency, flows[i].from, flows[i].to);
+        events.at(flows[i].start,
+                  [&, i] { stream.send(flows[i].bytes, [&, i] { times[i] = events.now(); }); });
+    }
     events.run();
     return times;
 }
@@ -74,8 +80,8 @@ std::vector<double> filled_rates(const NetworkRates& rates, const std::vector<Te
     return found;
 }
 
-std::vector<double> slow_arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows) {
-    const double latency = seconds(rates.latency);
+std::vector<double> slow_arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows,
+                                  Nanoseconds latency) {
     std::vector<double> left;
     for (const TestFlow& flow : flows) left.push_back(flow.bytes);
     std::vector<double> arrived(flows.size(), -1);
@@ -84,7 +90,7 @@ std::vector<double> slow_arrivals(const NetworkRates& rates, const std::vector<T
         std::vector<std::size_t> numbers;
         double next = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < flows.size(); ++i) {
-            const double begin = seconds(flows[i].start) + latency;
+            const double begin = seconds(flows[i].start + latency);
             if (arrived[i] >= 0) continue;
             if (begin > now) {
                 next = std::min(next, begin);

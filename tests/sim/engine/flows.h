@@ -22,14 +22,16 @@ NetworkRates random_rates(std::mt19937_64& random, std::size_t hosts, bool equal
 std::vector<TestFlow> random_flows(std::mt19937_64& random, std::size_t hosts, std::size_t flows,
                                    Nanoseconds starts);
 
-// When each flow arrives.
-std::vector<Nanoseconds> arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows);
+// When each flow arrives, with a connection (Stream) of its own.
+std::vector<Nanoseconds> arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows,
+                                  Nanoseconds latency = Nanoseconds(0));
 
 // Max-min fair rates by the book: all flows rise by the same step until a link is full, again and again.
 // Slow, shares no code with FlowNetwork.
 std::vector<double> filled_rates(const NetworkRates& rates, const std::vector<TestFlow>& flows);
 
 // When each flow arrives in seconds, with filled_rates() from one start or end to the next.
-std::vector<double> slow_arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows);
+std::vector<double> slow_arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows,
+                                  Nanoseconds latency);
 
 }  // namespace swath::sim::test
