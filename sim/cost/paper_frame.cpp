@@ -5,11 +5,10 @@
 #include "client/partition/mahd.h"
 #include "common/base/check.h"
 #include "sim/cost/client_time.h"
+#include "sim/cost/pricer.h"
 
 namespace swath::sim {
 namespace {
-
-double pixels(const Rect& rect) { return static_cast<double>(rect.area()); }
 
 // The plan with contents as the paper has them: also unseen objects count.
 FramePlan with_whole_contents(const FramePlan& plan, std::span<const ProjectedObject> objects,
@@ -37,12 +36,6 @@ Rect region_of(const FramePlan& plan, std::span<const ProjectedObject> objects, 
                      plan.view.viewport());
 }
 
-void add_final_read(const Rect& read, const Rect& sent, const Hardware& hardware, ServerTimes& server,
-                    PaperFrame& frame) {
-    if (!read.empty()) server.final_s += hardware.server.colour.read_s(pixels(read));
-    if (!sent.empty()) frame.display_s += hardware.display.colour.write_s(pixels(sent));
-}
-
 }  // namespace
 
 PaperFrame paper_frame(const FramePlan& plan, std::span<const ProjectedObject> objects, Algorithm algorithm,
@@ -50,30 +43,34 @@ PaperFrame paper_frame(const FramePlan& plan, std::span<const ProjectedObject> o
     const FramePlan whole = with_whole_contents(plan, objects, algorithm);
     const Rect region = region_of(plan, objects, algorithm);
 
+    const Pricer price(hardware);
     PaperFrame frame;
     frame.client_s = client_s(objects.size(), plan.servers.size(), algorithm, hardware);
     frame.servers.resize(plan.servers.size());
     for (std::size_t s = 0; s < plan.servers.size(); ++s) {
         ServerTimes& server = frame.servers[s];
         const ServerShare& share = whole.servers[s];
-        for (const ObjectId id : share.group)
-            server.render_s += static_cast<double>(objects[id].work) * hardware.server.polygon_s;
+        double polygons = 0;
+        for (const ObjectId id : share.group) polygons += static_cast<double>(objects[id].work);
+        server.render_s = price.render_s(polygons, share.content);
+        server.read_s = price.readback_s(share.content);
+        Region read;
+        Region sent;
         if (algorithm == Algorithm::kSortLast) {
-            for (const Rect& rect : final_region(whole, server_id(s)))
-                add_final_read(rect, rect, hardware, server, frame);
+            read = sent = final_region(whole, server_id(s));
         } else if (!share.tile.empty()) {
             const Rect tile = intersect(share.tile.front(), region);
-            const Rect read = algorithm == Algorithm::kHybrid ? tile : share.content;
-            add_final_read(read, tile, hardware, server, frame);
+            if (!tile.empty()) sent = {tile};
+            read = sent;
+            if (algorithm != Algorithm::kHybrid)
+                read = share.content.empty() ? Region{} : Region{share.content};
         }
+        server.final_s = price.read_tile_s(read);
+        frame.display_s += price.display_tile_s(sent);
     }
     for (const Transfer& transfer : transfers(whole)) {
-        for (const Rect& rect : transfer.region) {
-            frame.servers[index(transfer.from)].read_s +=
-                hardware.server.colour.read_s(pixels(rect)) + hardware.server.depth.read_s(pixels(rect));
-            frame.servers[index(transfer.to)].write_s +=
-                hardware.server.colour.write_s(pixels(rect)) + hardware.server.depth.write_s(pixels(rect));
-        }
+        frame.servers[index(transfer.from)].read_s += price.send_swath_s(transfer.region);
+        frame.servers[index(transfer.to)].write_s += price.merge_swath_s(transfer.region);
     }
     return frame;
 }

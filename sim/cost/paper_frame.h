@@ -12,14 +12,15 @@ namespace swath::sim {
 // What one server does in a frame, in seconds.
 struct ServerTimes {
     double render_s = 0;
-    double read_s = 0;   // colour and depth of the swaths that it sends
+    double read_s = 0;   // colour and depth of what it sends
     double write_s = 0;  // colour and depth of the swaths that it gets
     double final_s = 0;  // colour of its tile
     double total_s() const { return render_s + read_s + write_s + final_s; }
 };
 
 // A frame as Samanta 2000 accounts for it: a server's phases follow one another, nobody waits for the
-// network, compositing is on the graphics card, and no object is culled.
+// network, and no object is culled. Compositing is where the hardware has it, in the paper on the graphics
+// card; in host memory reading is that of all that was drawn, and the coding of swaths.
 struct PaperFrame {
     std::vector<ServerTimes> servers;
     double client_s = 0;   // transforming and partitioning

@@ -14,6 +14,7 @@ namespace {
 Hardware slow() {
     Hardware hardware;
     hardware.server.polygon_s = 1;
+    hardware.server.fill_pixels_per_s = 1e9;
     hardware.server.colour = {100, 1, 0.5};
     hardware.server.depth = {100, 1, 0.5};
     hardware.display.colour = {100, 1, 1.0 / 3};
@@ -95,6 +96,23 @@ TEST(PaperFrame, OfSortLastExchangesAndSendsSquareBySquare) {
     EXPECT_EQ(frame.servers[0].final_s, 100 + 50 + 100 + 100);
     EXPECT_EQ(frame.servers[1].final_s, 100 + 100 + 100 + 80);
     EXPECT_DOUBLE_EQ(frame.display_s, 4 * 100 + 3.0 * (50 + 100 + 100 + 80));
+}
+
+TEST(PaperFrame, WithCompositingInHostMemoryReadsAllOnceAndMovesWhatIsActive) {
+    Hardware hardware = slow();
+    hardware.server.compositing = Compositing::kHost;
+    hardware.server.pack_pixels_per_s = 0.1;
+    hardware.server.merge_pixels_per_s = 0.05;
+    hardware.network.active_share = 0.5;
+    hardware.network.tile_active_share = 0.25;
+    const Overlapping scene;
+    const PaperFrame frame = paper_frame(scene.plan, scene.objects, Algorithm::kHybrid, hardware);
+    for (const ServerTimes& server : frame.servers) {
+        EXPECT_DOUBLE_EQ(server.read_s, 2 * (100 + 18 * 6) + 10 * 0.5 * 12);
+        EXPECT_DOUBLE_EQ(server.write_s, 20 * 0.5 * 12);
+        EXPECT_DOUBLE_EQ(server.final_s, 10 * 0.25 * 16 * 6);
+    }
+    EXPECT_DOUBLE_EQ(frame.display_s, 2 * (100 + 3 * 0.25 * 16 * 6));
 }
 
 TEST(PaperFrame, CountsObjectsThatNobodySees) {

@@ -48,7 +48,8 @@ TEST(Stream, DeliversMessagesOneAfterAnotherWithOneLatencyForAll) {
         });
     events.run();
     EXPECT_EQ(order, "abcd");
-    EXPECT_THAT(times, ElementsAre(nanoseconds(1050), nanoseconds(1051), nanoseconds(1051), nanoseconds(1150)));
+    EXPECT_THAT(times,
+                ElementsAre(nanoseconds(1050), nanoseconds(1051), nanoseconds(1051), nanoseconds(1150)));
 }
 
 TEST(Stream, HasOneShareHoweverManyMessagesWait) {

@@ -1,0 +1,34 @@
+#pragma once
+#include "common/geometry/rect.h"
+#include "sim/hardware/hardware.h"
+
+namespace swath::sim {
+
+// What the steps of a server's frame take on given hardware, in seconds and bytes. With compositing on the
+// graphics card every rectangle is an operation of its own on every buffer; in host memory it is pixels at a
+// rate. Borrows the hardware. Thread-safe.
+class Pricer {
+  public:
+    explicit Pricer(const Hardware& hardware) : hardware_(hardware), server_(hardware.server) {}
+
+    // The longer of polygons and pixels.
+    double render_s(double polygons, const Rect& content) const;
+    // Host compositing: all that was drawn to host memory. Nothing on the card.
+    double readback_s(const Rect& content) const;
+    double send_swath_s(const Region& region) const;   // the sender's work
+    double merge_swath_s(const Region& region) const;  // the receiver's
+    double swath_bytes(const Region& region) const;
+    double read_tile_s(const Region& region) const;     // the server's work for its tile
+    double display_tile_s(const Region& region) const;  // the display's
+    double tile_bytes(const Region& region) const;
+
+  private:
+    bool on_host() const { return server_.compositing == Compositing::kHost; }
+    double sent_of_swath(const Region& region) const;  // pixels
+    double sent_of_tile(const Region& region) const;
+
+    const Hardware& hardware_;
+    const Hardware::Server& server_;
+};
+
+}  // namespace swath::sim
