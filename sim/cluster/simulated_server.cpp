@@ -63,11 +63,14 @@ void SimulatedServer::draw_next() {
     const FrameNumber number = to_draw_.front();
     to_draw_.pop_front();
     const ServerWork& work = *frames_.at(number).work;
-    work_on(draw_, number, Phase::kRender, work.render_s, [this, number, &work] {
-        if (on_card()) return run(swap_.on_drawn(number));
-        work_on(draw_, number, Phase::kPixelRead, work.read_s,
-                [this, number] { run(swap_.on_drawn(number)); });
-    });
+    const auto drawn = [this, number] { run(swap_.on_drawn(number)); };
+    if (on_card()) {
+        work_on(draw_, number, Phase::kRender, work.render_s, drawn);
+    } else {
+        // At once, so that no other frame's drawing comes between.
+        work_on(draw_, number, Phase::kRender, work.render_s, [] {});
+        work_on(draw_, number, Phase::kPixelRead, work.read_s, drawn);
+    }
 }
 
 void SimulatedServer::finish(FrameNumber number) {
