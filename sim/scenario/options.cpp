@@ -64,16 +64,19 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
         app.add_option("MODEL", models_, "[NAME=]FILE or builtin:NAME, as swath-client takes")
             ->required()
             ->expected(1);
-    app.add_option("--algorithm", algorithms_, "how to divide a frame, several with commas between: " + algorithm_names())
+    app.add_option("--algorithm", algorithms_,
+                   "how to divide a frame, several with commas between: " + algorithm_names())
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--servers", servers_, "how many, several with commas between")
         ->delimiter(',')
         ->capture_default_str();
-    values(app.add_option("--hardware", hardware_, "a profile's name (see swath-sim hardware) or a FILE.toml" + list));
+    values(app.add_option("--hardware", hardware_,
+                          "a profile's name (see swath-sim hardware) or a FILE.toml" + list));
     values(app.add_option("--size", sizes_, "of the picture in pixels" + list));
-    auto* depths = values(app.add_option("--octree-depth", depths_, "that cuts the model into objects [4]" + list)
-                              ->check(CLI::Range(0, kMaxOctreeDepth)));
+    auto* depths =
+        values(app.add_option("--octree-depth", depths_, "that cuts the model into objects [4]" + list)
+                   ->check(CLI::Range(0, kMaxOctreeDepth)));
     values(app.add_option("--objects", objects_, "... or about how many objects to cut it into" + list)
                ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000})))
         ->excludes(depths);
