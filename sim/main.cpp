@@ -7,6 +7,7 @@
 #include "sim/hardware/hardware.h"
 #include "sim/run/run.h"
 #include "sim/studies/study.h"
+#include "sim/sweep/sweep.h"
 
 int main(int argc, char** argv) {
     using namespace swath;
@@ -23,6 +24,15 @@ int main(int argc, char** argv) {
     run_command->add_option("--csv", run_options.csv, "write the table to this file");
     run_command->add_option("--timeline", run_options.timeline,
                             "what every machine did when: FILE.csv, or FILE.json for ui.perfetto.dev");
+
+    SweepOptions sweep_options;
+    ScenarioFlags sweep_flags;
+    auto* sweep_command = app.add_subcommand(
+        "sweep",
+        "simulate everything combined with everything into one table; goes on where it was interrupted");
+    sweep_flags.add_to(*sweep_command, true);
+    sweep_command->add_option("--out", sweep_options.out, "folder for sweep.csv and its journal")->required();
+    sweep_command->add_flag("--quiet", sweep_options.quiet, "no progress");
 
     StudyFlags study_flags;
     auto* study_command = app.add_subcommand("study", "repeat the paper's studies, as a page to read");
@@ -53,6 +63,11 @@ int main(int argc, char** argv) {
         if (!scenario) return usage_error(scenario.error());
         run_options.scenario = std::move(*scenario);
         status = run(run_options);
+    } else if (sweep_command->parsed()) {
+        auto scenario = sweep_flags.read();
+        if (!scenario) return usage_error(scenario.error());
+        sweep_options.scenario = std::move(*scenario);
+        status = sweep(sweep_options, SteadyClock());
     } else if (study_command->parsed()) {
         auto studies = study_flags.read();
         if (!studies) return usage_error(studies.error());

@@ -10,7 +10,7 @@ constexpr std::size_t kShownCharacters = 80;  // of a line in an error
 // Reads one record after the other.
 class Reader {
   public:
-    explicit Reader(std::string_view text) : text_(text) {}
+    Reader(std::string_view text, std::size_t first_line) : text_(text), line_(first_line) {}
 
     bool at_end() const { return at_ == text_.size(); }
     std::size_t line() const { return line_; }
@@ -61,7 +61,7 @@ class Reader {
 
     std::string_view text_;
     std::size_t at_ = 0;
-    std::size_t line_ = 1;
+    std::size_t line_;
 };
 
 }  // namespace
@@ -77,14 +77,14 @@ std::string csv_field(std::string_view text) {
 }
 
 Result<std::vector<CsvRecord>> parse_csv(std::string_view text, std::string_view header,
-                                         std::string_view source) {
+                                         std::string_view source, std::size_t first_line) {
     std::string_view first = text.substr(0, text.find('\n'));
     if (first.ends_with('\r')) first.remove_suffix(1);
     if (first != header)
-        return fail("{}:1: the header is '{}', expected '{}'", source, first.substr(0, kShownCharacters),
-                    header);
+        return fail("{}:{}: the header is '{}', expected '{}'", source, first_line,
+                    first.substr(0, kShownCharacters), header);
     std::vector<CsvRecord> records;
-    for (Reader reader(text); !reader.at_end();) {
+    for (Reader reader(text, first_line); !reader.at_end();) {
         auto record = reader.record();
         if (!record) return fail("{}:{}: {}", source, reader.line(), record.error().message);
         records.push_back(std::move(*record));

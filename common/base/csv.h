@@ -19,8 +19,8 @@ struct CsvRecord {
 
 // The header and the records of a table, each with as many fields as the header. Lines end with \n or \r\n,
 // the last one too: a file that was cut off is an error, like quotes that RFC 4180 does not allow. Errors
-// name the source and the line.
+// name the source and the line; the header is on line `first_line` of the source.
 Result<std::vector<CsvRecord>> parse_csv(std::string_view text, std::string_view header,
-                                         std::string_view source);
+                                         std::string_view source, std::size_t first_line = 1);
 
 }  // namespace swath

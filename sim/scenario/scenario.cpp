@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+#include <tuple>
+
 #include "common/scene/model.h"
 #include "common/scene/model_blob.h"
+#include "sim/hardware/keys.h"
 
 namespace swath::sim {
 namespace {
@@ -14,49 +19,102 @@ std::string labelled(const std::string& model, const std::vector<std::string>& w
     return which.empty() ? model : fmt::format("{} ({})", model, fmt::join(which, ", "));
 }
 
+std::string digest_of(const Paths& paths) {
+    static_assert(sizeof(Camera) == 12 * sizeof(float), "no padding");
+    Buffer bytes;
+    for (const std::vector<Camera>& cameras : paths)
+        bytes.append(cameras.data(), cameras.size() * sizeof(Camera));
+    return to_hex(digest(bytes.bytes()));
+}
+
+std::string exact_text(double value) { return fmt::format("{}", value); }
+std::string exact_text(const std::optional<double>& value) { return value ? exact_text(*value) : "none"; }
+std::string exact_text(bool value) { return value ? "true" : "false"; }
+std::string exact_text(Compositing value) {
+    return std::string(value == Compositing::kHost ? kHostWord : kGraphicsWord);
+}
+std::string exact_text(const std::string& value) { return value; }
+
+// All of a profile in SI units and every digit, which explain() rounds.
+std::string exact_text(const Hardware& hardware) {
+    Hardware copy = hardware;
+    std::string text = fmt::format("hardware {}\n", hardware.name);
+    for (const Key& key : hardware_keys())
+        text += fmt::format("{}: {}\n", key.name,
+                            std::visit([&](auto place) { return exact_text(place(copy)); }, key.place));
+    return text;
+}
+
+// Tables tell experiments by their labels.
+Status check_labels(const std::vector<Experiment>& experiments) {
+    std::set<std::tuple<std::string, std::string, std::size_t>> labels;
+    for (const Experiment& e : experiments)
+        if (!labels.insert({e.algorithm_name, e.model_name, e.servers}).second)
+            return fail("two models would be called '{}': give them other names", e.model_name);
+    return {};
+}
+
 }  // namespace
 
 Result<Scenario> Scenario::load(const ScenarioOptions& options) {
     Scenario scenario;
     const PathSpec& path = options.path;
-    scenario.settings_.push_back(fmt::format("path {}, {} frames, zoom {}, seeds {} to {}, {} in flight",
-                                             path.path, path.frames, path.zoom, path.seed,
-                                             path.seed + path.seeds - 1, options.frames_in_flight));
+    scenario.add_settings(fmt::format("path {}, {} frames, zoom {}, seeds {} to {}, {} in flight", path.path,
+                                      path.frames, path.zoom, path.seed, path.seed + path.seeds - 1,
+                                      options.frames_in_flight));
     for (const std::string& name : options.hardware) {
         auto hardware = find_hardware(name);
         if (!hardware) return fail_in("--hardware", hardware.error());
-        scenario.settings_.push_back(fmt::format("hardware {}", hardware->name));
-        scenario.settings_.push_back(explain(*hardware));
+        if (std::ranges::find(scenario.hardware_, hardware->name, &Hardware::name) !=
+            scenario.hardware_.end())
+            return fail("--hardware: two profiles are called '{}'", hardware->name);
+        scenario.add_settings(exact_text(*hardware));
         scenario.hardware_.push_back(std::move(*hardware));
     }
     for (const ModelName& name : options.models)
         if (const auto status = scenario.add_model(name, options); !status)
             return tl::unexpected(status.error());
+    if (const auto status = check_labels(scenario.experiments_); !status)
+        return tl::unexpected(status.error());
     for (const Experiment& e : scenario.experiments_)
-        scenario.settings_.push_back(fmt::format("{}, {}, {} servers, {}x{}, {}", e.model_name,
-                                                 e.algorithm_name, e.servers, e.width, e.height,
-                                                 e.hardware->name));
+        scenario.add_settings(fmt::format("{}, {}, {} servers, {}x{}, {}", e.model_name, e.algorithm_name,
+                                          e.servers, e.width, e.height, e.hardware->name));
     return scenario;
+}
+
+void Scenario::add_settings(std::string_view lines) {
+    while (!lines.empty()) {
+        const std::size_t end = std::min(lines.find('\n'), lines.size());
+        settings_.emplace_back(lines.substr(0, end));
+        lines.remove_prefix(std::min(end + 1, lines.size()));
+    }
 }
 
 Status Scenario::add_model(const ModelName& name, const ScenarioOptions& options) {
     const auto mesh = load_model(name.file);
     if (!mesh) return tl::unexpected(mesh.error());
     const Buffer blob = write_blob(*mesh);
-    settings_.push_back(fmt::format("model {}: {} polygons, SHA-256 {}", name.name, mesh->triangle_count(),
-                                    to_hex(digest(blob.bytes()))));
+    add_settings(fmt::format("model {}: {} polygons, SHA-256 {}", name.name, mesh->triangle_count(),
+                             to_hex(digest(blob.bytes()))));
     std::vector<std::pair<const StudyModel*, std::string>> cuts;
     for (const Granularity& granularity : options.granularities) {
         const StudyModel& model =
             models_.emplace_back(StudyModel{name.name, build_objects(*mesh, granularity)});
-        settings_.push_back(fmt::format("{}: {} objects at depth {}", name.name, model.scene.objects.size(),
-                                        model.scene.depth));
+        const auto same_depth = [&](const auto& cut) { return cut.first->scene.depth == model.scene.depth; };
+        if (std::ranges::any_of(cuts, same_depth)) {  // of several numbers of objects
+            models_.pop_back();
+            continue;
+        }
+        add_settings(fmt::format("{}: {} objects at depth {}", name.name, model.scene.objects.size(),
+                                 model.scene.depth));
         cuts.emplace_back(&model, fmt::format("depth {}", model.scene.depth));
     }
     for (const PictureSize& size : options.sizes) {
         auto paths = make_paths(options.path, models_.back().scene.bounds, size.width, size.height);
         if (!paths) return tl::unexpected(paths.error());
         const Paths& cameras = paths_.emplace_back(std::move(*paths));
+        add_settings(
+            fmt::format("{}: cameras at {}, SHA-256 {}", name.name, size_text(size), digest_of(cameras)));
         for (const Hardware& hardware : hardware_) {
             for (const auto& [model, cut] : cuts) {
                 std::vector<std::string> which;

@@ -1,6 +1,7 @@
 #pragma once
 #include <list>
-#include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/result.h"
@@ -11,7 +12,8 @@ namespace swath::sim {
 
 // Everything that ScenarioOptions name, loaded, and the experiments that they combine to: by model, hardware,
 // size, granularity, algorithm and servers. Experiments point into it. Where there are several sizes,
-// granularities or profiles, model names say which: "dragon (depth 5, 2560x1920)".
+// granularities or profiles, model names say which: "dragon (depth 5, 2560x1920)". No two experiments have
+// the same label: granularities that come to the same depth are one, all else of one name is an error.
 class Scenario {
   public:
     static Result<Scenario> load(const ScenarioOptions& options);
@@ -21,6 +23,7 @@ class Scenario {
     const std::vector<std::string>& settings() const { return settings_; }
 
   private:
+    void add_settings(std::string_view lines);
     Status add_model(const ModelName& name, const ScenarioOptions& options);
 
     // Lists, whose elements stay where they are.

@@ -53,8 +53,8 @@ std::string to_csv(std::span<const Row> rows) {
     return csv;
 }
 
-Result<std::vector<Row>> parse_table(std::string_view text, std::string_view source) {
-    auto records = parse_csv(text, kHeader, source);
+Result<std::vector<Row>> parse_table(std::string_view text, std::string_view source, std::size_t first_line) {
+    auto records = parse_csv(text, kHeader, source, first_line);
     if (!records) return tl::unexpected(records.error());
     std::vector<Row> rows;
     for (std::size_t i = 1; i < records->size(); ++i) {

@@ -24,8 +24,9 @@ struct Row {
 // zero; the same text in every locale.
 std::string to_csv(std::span<const Row> rows);
 
-// Errors name the source, the line and the field.
-Result<std::vector<Row>> parse_table(std::string_view text, std::string_view source);
+// Errors name the source, the line and the field. Of a table within a file, `first_line` is the header's.
+Result<std::vector<Row>> parse_table(std::string_view text, std::string_view source,
+                                     std::size_t first_line = 1);
 Result<std::vector<Row>> read_table(const std::filesystem::path& file);
 
 }  // namespace swath::sim

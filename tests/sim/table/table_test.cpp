@@ -84,6 +84,14 @@ TEST(Table, NamesTheLineAndTheFieldOfWhatIsWrong) {
               "t.csv:1: the header is 'frame,machine', expected 'algorithm,model,servers,column,value'");
 }
 
+TEST(Table, WithinAFileHasLinesOfTheFile) {
+    const auto rows = parse_table(kHeader + "a,m,1,c,2\na,m,1,c,x\n", "t.csv", 10);
+    ASSERT_FALSE(rows);
+    EXPECT_EQ(rows.error().message, "t.csv:12: value: 'x' is not a number");
+    EXPECT_EQ(parse_table(kHeader + "a,m,1,c\n", "t.csv", 10).error().message,
+              "t.csv:11: 4 fields, the header has 5");
+}
+
 TEST(Table, ReadsThePublishedTable) {
     const auto rows = read_table(SWATH_SOURCE_DIR "/sim/published/table1.csv");
     ASSERT_TRUE(rows) << rows.error().message;
