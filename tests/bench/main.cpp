@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
         {"cluster", bench::bench_cluster},
         {"load", bench::bench_load},
         {"peers", bench::bench_peers},
+        {"simulator", bench::bench_simulator},
         {"swap", bench::bench_swap}};
     std::string name;
     std::string json;
@@ -22,13 +23,14 @@ int main(int argc, char** argv) {
     CLI::App app{
         "swath-bench: every figure that docs/benchmarks.md names, as ratios within one run where that is "
         "possible.\n"
-        "  cluster  real processes: CPU of a cluster of one, and speed-up of two, against --single\n"
-        "  load     reading the Dragon and cutting it into objects\n"
-        "  peers    ours beside IceT's and OpenSceneGraph's on the Dragon\n"
-        "  swap     bytes a swapped pixel takes, and how fast pixels are merged\n"};
+        "  cluster    real processes: CPU of a cluster of one, and speed-up of two, against --single\n"
+        "  load       reading the Dragon and cutting it into objects\n"
+        "  peers      ours beside IceT's and OpenSceneGraph's on the Dragon\n"
+        "  simulator  all of the paper's Table 1, events and partitions a second\n"
+        "  swap       bytes a swapped pixel takes, and how fast pixels are merged\n"};
     app.add_option("NAME", name, "which")
         ->required()
-        ->check(CLI::IsMember({"cluster", "load", "peers", "swap"}));
+        ->check(CLI::IsMember({"cluster", "load", "peers", "simulator", "swap"}));
     app.add_option("--json", json, "write {\"figures\": {name: number}} to this file");
     app.add_flag("--smoke", smoke,
                  "a small built-in model, once: to see that it runs; the figures mean nothing");
