@@ -17,8 +17,8 @@ Status write_text(const std::string& file, const std::string& text) {
 Status save_timeline(const Experiment& e, const std::string& file) {
     const auto costs = simulate({e.model->scene.objects, e.paths->front(), e.width, e.height, e.algorithm,
                                  e.servers, e.frames_in_flight, *e.hardware, true});
-    return write_text(file, file.ends_with(".csv") ? to_csv(costs.timelines)
-                                                   : to_chrome_trace(costs.timelines));
+    return write_text(file,
+                      file.ends_with(".csv") ? to_csv(costs.timelines) : to_chrome_trace(costs.timelines));
 }
 
 }  // namespace

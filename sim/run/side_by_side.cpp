@@ -34,17 +34,18 @@ std::string side_by_side(std::span<const Experiment> experiments, std::span<cons
             text += heading(e);
             text += fmt::format("{:16}{:-^67} {:-^36}\n", "", " paper mode: server's phases, ms ",
                                 " full mode: everything at work ");
-            text += fmt::format("{:10}{:>6}{:>8}{:>8}{:>6}{:>6}{:>6}{:>8}{:>8}{:>8}{:>8}  {:>8}{:>8}{:>9} {}\n",
-                                "algorithm", "N", "ideal", "overlap", "read", "write", "final", "imbal.",
-                                "total", "display", "speedup", "frame ms", "speedup", "latency", "busiest");
+            text +=
+                fmt::format("{:10}{:>6}{:>8}{:>8}{:>6}{:>6}{:>6}{:>8}{:>8}{:>8}{:>8}  {:>8}{:>8}{:>9} {}\n",
+                            "algorithm", "N", "ideal", "overlap", "read", "write", "final", "imbal.", "total",
+                            "display", "speedup", "frame ms", "speedup", "latency", "busiest");
         }
         const std::vector<Row> rows = table1_rows(e, outcome);
-        text += fmt::format("{:10}{:>6}{:>8.1f}{:>8.1f}{:>6.1f}{:>6.1f}{:>6.1f}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.2f}",
-                            e.algorithm_name, e.servers, column(rows, "ideal_render"),
-                            column(rows, "overlap_render"), column(rows, "pixel_read"),
-                            column(rows, "pixel_write"), column(rows, "final_read"),
-                            column(rows, "imbalance"), column(rows, "server_total"),
-                            column(rows, "display_write"), column(rows, "speedup"));
+        text +=
+            fmt::format("{:10}{:>6}{:>8.1f}{:>8.1f}{:>6.1f}{:>6.1f}{:>6.1f}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.2f}",
+                        e.algorithm_name, e.servers, column(rows, "ideal_render"),
+                        column(rows, "overlap_render"), column(rows, "pixel_read"),
+                        column(rows, "pixel_write"), column(rows, "final_read"), column(rows, "imbalance"),
+                        column(rows, "server_total"), column(rows, "display_write"), column(rows, "speedup"));
         if (!outcome.full.empty()) {
             const ResourceUse bottleneck = outcome.full.bottleneck();
             text += fmt::format("  {:>8.1f}{:>8.2f}{:>9.1f} {} ({:.0f} %)", outcome.full.frame_s() * 1e3,

@@ -66,7 +66,9 @@ void EndToEnd::TearDown() {
 
 std::unique_ptr<Process> EndToEnd::start(const std::string& program, Arguments arguments,
                                          const std::filesystem::path& folder) const {
-    if (kSlowdown > 1 && std::find(arguments.begin(), arguments.end(), "--silence-ms") == arguments.end())
+    const bool has_peers = program != "swath-sim";
+    if (kSlowdown > 1 && has_peers &&
+        std::find(arguments.begin(), arguments.end(), "--silence-ms") == arguments.end())
         arguments = Arguments{"--silence-ms", "10000"} + arguments;
     return std::make_unique<Process>(
         std::filesystem::path(SWATH_PROGRAMS) / program, arguments,

@@ -29,9 +29,9 @@ class EndToEnd : public testing::Test {
     ~EndToEnd() override;
     void TearDown() override;
 
-    // Starts "swath-client", "swath-server" or "swath-display". It draws without extra threads, keeps its
-    // cache in the test's folder, and under a sanitizer waits longer for silent peers unless the arguments
-    // say how long.
+    // Starts "swath-client", "swath-server", "swath-display" or "swath-sim". It draws without extra threads,
+    // keeps its cache in the test's folder, and under a sanitizer waits longer for silent peers unless the
+    // arguments say how long.
     std::unique_ptr<Process> start(const std::string& program, Arguments arguments,
                                    const std::filesystem::path& folder = {}) const;
     Finished run(const std::string& program, const Arguments& arguments,
