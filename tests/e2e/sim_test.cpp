@@ -28,7 +28,7 @@ class Simulator : public EndToEnd {
                          "--servers",
                          "1,2,3,4,5,6,7,8,9,10",
                          "--frames",
-                         "50",
+                         "100",
                          "--out",
                          folder} +
                more;

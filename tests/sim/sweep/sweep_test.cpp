@@ -110,10 +110,11 @@ TEST_F(Sweep, InterruptedAtAnyByteGoesOnToTheSameTable) {
     const std::string whole = journal("whole");
     const std::string head = journal_head(scenario_->settings());
     ASSERT_TRUE(whole.starts_with(head));
-    std::size_t last_two = whole.size();  // where the entries before the last two end
-    for (int i = 0; i < 3; ++i) last_two = whole.rfind("# complete", last_two - 1);
+    const std::size_t last =
+        whole.rfind("# complete", whole.rfind("# complete") - 1);  // ends the last but one
     std::vector<std::size_t> sizes{0, 1, head.size() / 2, head.size() - 1, head.size()};
-    for (std::size_t size = last_two; size <= whole.size(); ++size) sizes.push_back(size);
+    for (std::size_t size = head.size(); size < last; size += 13) sizes.push_back(size);
+    for (std::size_t size = last; size <= whole.size(); ++size) sizes.push_back(size);
     for (const std::size_t size : sizes) {
         write_journal("cut", std::string_view(whole).substr(0, size));
         const auto result = run("cut", 1 + size % 3);
