@@ -64,30 +64,33 @@ Result<StudyContext> StudyContext::open(const StudyOptions& options) {
     std::filesystem::create_directories(options.out, error);
     if (error) return fail("--out: {}: {}", options.out.string(), error.message());
 
-    for (const ModelName& name : options.models)
+    const auto is_paper_model = [](const ModelName& model) { return paper_model(model.name) != nullptr; };
+    if (options.models.empty() || std::ranges::any_of(options.models, is_paper_model))
+        for (const PaperModel& model : kPaperModels)
+            if (auto status = context.add_paper_subject(std::string(model.name), std::string(model.stand_in));
+                !status)
+                return tl::unexpected(status.error());
+    for (const ModelName& name : options.models) {
+        if (is_paper_model(name)) continue;
         if (auto status = context.add_subject(name, false); !status) return tl::unexpected(status.error());
-    if (!options.models.empty()) return context;
-    for (const PaperModel& model : kPaperModels) {
-        const std::string name(model.name);
-        const std::string file = fmt::format("models/{}.ply", name);
-        if (std::filesystem::exists(file)) {
-            if (auto status = context.add_subject({name, file}, false); !status)
-                return tl::unexpected(status.error());
-        } else if (!model.stand_in.empty()) {
-            context.absences_.push_back(fmt::format(
-                "The paper's {} is not here ({} does not exist): {}, a procedural model, stands in for it.",
-                name, file, model.stand_in));
-            const ModelName stand_in{name + "-stand-in", std::string(model.stand_in)};
-            if (auto status = context.add_subject(stand_in, true); !status)
-                return tl::unexpected(status.error());
-        } else {
-            context.absences_.push_back(
-                fmt::format("The paper's {} is not here ({} does not exist; --model {}=FILE names another "
-                            "place): it is left out.",
-                            name, file, name));
-        }
     }
     return context;
+}
+
+Status StudyContext::add_paper_subject(const std::string& name, const std::string& stand_in) {
+    for (const ModelName& given : options_.models)
+        if (lower(given.name) == name) return add_subject(given, false);
+    const std::string file = fmt::format("models/{}.ply", name);
+    if (std::filesystem::exists(file)) return add_subject({name, file}, false);
+    const std::string absent = fmt::format(
+        "The paper's {} is not here ({} does not exist; --model {}=FILE names another place): ", name, file,
+        name);
+    if (stand_in.empty()) {
+        absences_.push_back(absent + "it is left out.");
+        return {};
+    }
+    absences_.push_back(absent + stand_in + ", a procedural model, stands in for it.");
+    return add_subject({name + "-stand-in", stand_in}, true);
 }
 
 Status StudyContext::add_subject(const ModelName& name, bool stand_in) {

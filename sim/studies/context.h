@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <list>
 #include <string>
 #include <vector>
@@ -68,6 +69,8 @@ class StudyContext {
 
   private:
     explicit StudyContext(const StudyOptions& options);
+    // The paper's model of that name: the one given, else from models/, else the stand-in, if there is one.
+    Status add_paper_subject(const std::string& name, const std::string& stand_in);
     Status add_subject(const ModelName& name, bool stand_in);
 
     StudyOptions options_;

@@ -108,6 +108,8 @@ Status feasibility(StudyContext& context) {
         const auto polygons = static_cast<double>(scene.mesh.triangle_count());
         table1.push_back({"model", name, 0, "polygons", polygons});
         table1.push_back({"model", name, 0, "objects", static_cast<double>(scene.objects.size())});
+        table1.push_back(
+            {"uniprocessor", name, 1, "server_total", polygons * context.hardware().server.polygon_s * 1e3});
         PageTable table{{"algorithm, servers"}, {}};
         for (std::string column : kColumns) {
             std::ranges::replace(column, '_', ' ');

@@ -27,8 +27,8 @@ void StudyFlags::add_to(CLI::App& app) {
     app.add_option("NAME", names_, fmt::format("which: {}, or all", fmt::join(study_names(), ", ")))
         ->required();
     app.add_option("--model", models_,
-                   "NAME=FILE, repeatable: hand, dragon and buddha are shown beside the paper's figures, any "
-                   "other name goes [models/dragon.ply and so on, as far as they are there]");
+                   "NAME=FILE, repeatable: hand, dragon and buddha are shown beside the paper's figures and "
+                   "looked for in models/NAME.ply if they are not named; with other names only, those alone");
     app.add_option("--zoom", zooms_,
                    "MODEL=ZOOM, repeatable [dragon=1.06, buddha=1.33, others 1: what the paper's screen "
                    "coverage suggests]");

@@ -12,8 +12,10 @@
 namespace swath::sim {
 
 struct StudyOptions {
-    std::vector<std::string> names;       // of studies
-    std::vector<ModelName> models;        // empty: the paper's, as far as they are there
+    std::vector<std::string> names;  // of studies
+    // Without any, or with one of the paper's, those of the paper that are missing here are looked for in
+    // models/, and the Hand's stand-in is taken.
+    std::vector<ModelName> models;
     std::map<std::string, double> zooms;  // by model, where the paper's setting is not wanted
     std::string hardware = "paper-2000";
     std::size_t frames = 50;

@@ -1,0 +1,170 @@
+#include "sim/studies/study.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include "sim/studies/published.h"
+#include "tests/support/models.h"
+
+namespace swath::sim {
+namespace {
+
+using testing::HasSubstr;
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    EXPECT_TRUE(stream) << file;
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        files[entry.path().filename().string()] = text_of(entry.path());
+    return files;
+}
+
+class Study : public testing::Test {
+  protected:
+    StudyOptions small(const std::string& folder, std::vector<std::string> names) const {
+        StudyOptions options;
+        options.names = std::move(names);
+        options.models = {{"knot", "builtin:knot:3000"}};
+        options.frames = 3;
+        options.seeds = 2;
+        options.quiet = true;
+        options.out = files_.path_of(folder);
+        return options;
+    }
+    test::TemporaryFolder files_;
+};
+
+// Made by, after looking at the difference:
+//   swath-sim study feasibility --model knot=builtin:knot:3000 --frames 3 --seeds 2 --out DIR
+//   cp DIR/table1.csv tests/sim/studies/golden/
+TEST_F(Study, OfFeasibilityMakesTheTableThatItMadeBefore) {
+    ASSERT_TRUE(run_studies(small("out", {"feasibility"})));
+    EXPECT_EQ(text_of(files_.path_of("out/table1.csv")), text_of(SWATH_GOLDEN "/table1.csv"));
+}
+
+TEST_F(Study, MakesTheSameBytesOnAnyNumberOfThreads) {
+    StudyOptions one = small("one", study_names());
+    StudyOptions three = small("three", study_names());
+    three.threads = 3;
+    ASSERT_TRUE(run_studies(one));
+    ASSERT_TRUE(run_studies(three));
+    const auto files = files_of(one.out);
+    EXPECT_GT(files.size(), 20u);
+    EXPECT_EQ(files, files_of(three.out));
+}
+
+TEST_F(Study, MakesAPageWhosePicturesAreAllThere) {
+    const StudyOptions options = small("page", study_names());
+    ASSERT_TRUE(run_studies(options));
+    const std::string html = text_of(options.out / "index.html");
+    std::size_t pictures = 0;
+    const std::regex source("src=\"([^\"]+)\"");
+    for (std::sregex_iterator at(html.begin(), html.end(), source), end; at != end; ++at, ++pictures)
+        EXPECT_TRUE(std::filesystem::exists(options.out / (*at)[1].str())) << (*at)[1];
+    EXPECT_GE(pictures, 15u);
+    for (const char* section : {"Feasibility", "Scalability", "sort-first", "sort-last", "resolution", "granularity"})
+        EXPECT_THAT(html, HasSubstr(section));
+}
+
+TEST_F(Study, ShowsOnlyWhatWasAskedFor) {
+    const StudyOptions options = small("some", {"resolution"});
+    ASSERT_TRUE(run_studies(options));
+    EXPECT_TRUE(std::filesystem::exists(options.out / "figure_11.svg"));
+    EXPECT_FALSE(std::filesystem::exists(options.out / "table1.csv"));
+}
+
+TEST_F(Study, PutsThePapersFiguresBesideAModelOfThePaper) {
+    StudyOptions options = small("dragon", {"feasibility"});
+    options.models = {{"dragon", "builtin:knot:3000"}};
+    ASSERT_TRUE(run_studies(options));
+    const std::string html = text_of(options.out / "index.html");
+    EXPECT_THAT(html, HasSubstr("(160.9)"));  // hybrid, 8 servers
+    EXPECT_THAT(html, HasSubstr("buddha is not here"));
+    EXPECT_THAT(html, HasSubstr("builtin:hand, a procedural model, stands in for it"));
+    EXPECT_THAT(text_of(options.out / "table1.csv"), HasSubstr("\nhybrid,hand-stand-in,64,speedup,"));
+}
+
+TEST_F(Study, NamesWhatIsMissing) {
+    StudyOptions options = small("missing", {"feasibility"});
+    options.models = {{"buddha", files_.path_of("none.ply")}};
+    const Status missing = run_studies(options);
+    ASSERT_FALSE(missing);
+    EXPECT_THAT(missing.error().message, HasSubstr("none.ply"));
+
+    options = small("missing", {"feasibility"});
+    options.hardware = "paper-1999";
+    const Status hardware = run_studies(options);
+    ASSERT_FALSE(hardware);
+    EXPECT_THAT(hardware.error().message, HasSubstr("paper-2000"));
+
+    options = small("file", {"feasibility"});
+    options.out = files_.write("file", "in the way");
+    const Status folder = run_studies(options);
+    ASSERT_FALSE(folder);
+    EXPECT_THAT(folder.error().message, HasSubstr("--out"));
+}
+
+class StudyFlagsTest : public testing::Test {
+  protected:
+    static Result<StudyOptions> read(std::vector<std::string> arguments) {
+        CLI::App app;
+        StudyFlags flags;
+        flags.add_to(app);
+        std::reverse(arguments.begin(), arguments.end());
+        try {
+            app.parse(arguments);
+        } catch (const CLI::ParseError& error) {
+            return fail("{}", error.what());
+        }
+        return flags.read();
+    }
+    static std::string error_of(const std::vector<std::string>& arguments) {
+        const auto options = read(arguments);
+        return options ? "no error" : options.error().message;
+    }
+};
+
+TEST_F(StudyFlagsTest, NameStudiesModelsAndZooms) {
+    const auto options = read({"all", "--out", "x", "--model", "dragon=a.ply", "--model", "builtin:knot",
+                               "--zoom", "dragon=2.5", "--seeds", "7"});
+    ASSERT_TRUE(options) << options.error().message;
+    EXPECT_EQ(options->names, study_names());
+    EXPECT_EQ(options->models, (std::vector<ModelName>{{"dragon", "a.ply"}, {"knot", "builtin:knot"}}));
+    EXPECT_EQ(options->zooms.at("dragon"), 2.5);
+    EXPECT_EQ(options->seeds, 7u);
+    EXPECT_GE(options->threads, 1u);
+}
+
+TEST_F(StudyFlagsTest, ThatAreWrongAreNamed) {
+    EXPECT_THAT(error_of({"feasability", "--out", "x"}), HasSubstr("'feasability' is not known; there are: feasibility"));
+    EXPECT_THAT(error_of({"all"}), HasSubstr("--out"));
+    EXPECT_THAT(error_of({"--out", "x"}), HasSubstr("NAME"));
+    EXPECT_THAT(error_of({"all", "--out", "x", "--zoom", "dragon"}), HasSubstr("'dragon': expected MODEL=ZOOM"));
+    EXPECT_THAT(error_of({"all", "--out", "x", "--zoom", "dragon=nan"}), HasSubstr("expected MODEL=ZOOM"));
+    EXPECT_THAT(error_of({"all", "--out", "x", "--model", "a=b", "--model", "a=c"}), HasSubstr("two models"));
+    EXPECT_THAT(error_of({"all", "--out", "x", "--seeds", "0"}), HasSubstr("--seeds"));
+    EXPECT_THAT(error_of({"all", "--out", "x", "--seed", "-1"}), HasSubstr("--seed"));
+}
+
+TEST(PublishedTable1, HasAllRowsOfThePaper) {
+    EXPECT_EQ(published("hybrid", "dragon", 64, "speedup"), 43.7);
+    EXPECT_EQ(published("sort-first", "hand", 8, "overlap_render"), 66.6);
+    EXPECT_EQ(published("model", "buddha", 0, "polygons"), 1'087'716);
+    EXPECT_EQ(published("hybrid", "dragon", 64, "overlap_render"), std::nullopt);
+    std::size_t speedups = 0;
+    for (const Row& row : published_table1()) speedups += row.column == "speedup" ? 1 : 0;
+    EXPECT_EQ(speedups, 36u);
+}
+
+}  // namespace
+}  // namespace swath::sim
