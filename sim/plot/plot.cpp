@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 #include "common/base/check.h"
@@ -24,13 +25,39 @@ constexpr std::array<int, 6> kOpenMarks{6, 4, 8, 12, 10, 14};
 constexpr std::string_view kText = "#333333";
 constexpr std::string_view kGrey = "#888888";
 
-constexpr std::string_view kSvg =
-    "set terminal svg noenhanced size 900,540 background '#ffffff' font 'DejaVu "
-    "Sans,Verdana,sans-serif,13'\n";
+// In the SVG's pixels. A legend of many or long names makes the picture larger, not the plot smaller.
+struct Canvas {
+    std::size_t width = 900;
+    std::size_t height = 540;
+};
+
+Canvas canvas_for(const std::vector<std::string>& legend) {
+    constexpr std::size_t kPlotWidth = 660;  // with the axis, and the legend's samples
+    constexpr std::size_t kMargins = 100;
+    constexpr std::size_t kLetter = 9;
+    constexpr std::size_t kLine = 36;  // what gnuplot takes for a line before it begins another column
+    std::size_t longest = 0;
+    for (const std::string& name : legend) longest = std::max(longest, name.size());
+    Canvas canvas;
+    canvas.width = std::clamp(kPlotWidth + kLetter * longest, canvas.width, 2 * canvas.width);
+    canvas.height = std::clamp(kMargins + kLine * legend.size(), canvas.height, 8 * canvas.height);
+    return canvas;
+}
+
+std::string svg_of(const Canvas& canvas) {
+    return fmt::format(
+        "set terminal svg noenhanced size {},{} background '#ffffff' font 'DejaVu "
+        "Sans,Verdana,sans-serif,13'\n",
+        canvas.width, canvas.height);
+}
+
 // Twice the pixels of the SVG, for screens that have them.
-constexpr std::string_view kPng =
-    "set terminal pngcairo noenhanced size 1800,1080 background '#ffffff' font 'DejaVu Sans,13' "
-    "fontscale 2 linewidth 2 pointscale 2\n";
+std::string png_of(const Canvas& canvas) {
+    return fmt::format(
+        "set terminal pngcairo noenhanced size {},{} background '#ffffff' font 'DejaVu Sans,13' "
+        "fontscale 2 linewidth 2 pointscale 2\n",
+        2 * canvas.width, 2 * canvas.height);
+}
 
 // Somebody's text in the script.
 std::string text(std::string_view name) { return literal(printable(name)); }
@@ -86,6 +113,26 @@ std::string style_of(const Series& series, std::size_t place) {
     return fmt::format("with lines linecolor rgb '{}' linewidth 1 dashtype (4,4)", kGrey);
 }
 
+// Tics at the places that have points, if they are few and far enough apart to be read; else gnuplot's.
+std::string tics_of(const Plot& plot) {
+    constexpr double kClosest = 0.06;  // of the axis
+    std::set<double> places;
+    for (const Series& series : plot.series) {
+        if (series.style == Style::kReference) continue;
+        for (const auto& [x, y] : series.points) places.insert(plot.log2_x ? std::log2(x) : x);
+    }
+    if (places.empty()) return {};
+    double before = plot.log2_x ? *places.begin() : 0;
+    std::string tics;
+    for (const double place : places) {
+        const bool first = tics.empty();
+        if (!(first && plot.log2_x) && place - before < kClosest * *places.rbegin()) return {};
+        before = place;
+        tics += fmt::format("{}{:g}", first ? "" : ", ", plot.log2_x ? std::exp2(place) : place);
+    }
+    return places.size() > 16 ? "" : fmt::format("set xtics ({})\n", tics);
+}
+
 Result<std::string> script_of(const Plot& plot) {
     std::string script = frame(plot.title, plot.x_label, plot.y_label);
     script +=
@@ -108,7 +155,7 @@ Result<std::string> script_of(const Plot& plot) {
                                text(series.name), style_of(series, i));
     }
     if (command.empty()) return fail("nothing to draw in '{}'", printable(plot.title));
-    return script + command + '\n';
+    return script + tics_of(plot) + command + '\n';
 }
 
 Result<std::string> script_of(const Bars& bars) {
@@ -167,11 +214,14 @@ Result<std::string> script_of(const Bars& bars) {
     return script + command + '\n';
 }
 
-Status draw_both(const Result<std::string>& script, const std::filesystem::path& stem) {
+Status draw_both(const Result<std::string>& script, const std::vector<std::string>& legend,
+                 const std::filesystem::path& stem) {
     if (!script) return tl::unexpected(script.error());
-    for (const auto& [terminal, suffix] : {std::pair{kSvg, ".svg"}, {kPng, ".png"}}) {
+    const Canvas canvas = canvas_for(legend);
+    for (const auto& [terminal, suffix] :
+         {std::pair{svg_of(canvas), ".svg"}, std::pair{png_of(canvas), ".png"}}) {
         const std::string file = stem.string() + suffix;
-        const Result<Buffer> picture = run_gnuplot(std::string(terminal) + *script);
+        const Result<Buffer> picture = run_gnuplot(terminal + *script);
         if (!picture) return fail_in(file, picture.error());
         if (const Status written = write_file(file, picture->bytes()); !written) return written;
     }
@@ -180,7 +230,16 @@ Status draw_both(const Result<std::string>& script, const std::filesystem::path&
 
 }  // namespace
 
-Status draw(const Plot& plot, const std::filesystem::path& stem) { return draw_both(script_of(plot), stem); }
-Status draw(const Bars& bars, const std::filesystem::path& stem) { return draw_both(script_of(bars), stem); }
+Status draw(const Plot& plot, const std::filesystem::path& stem) {
+    std::vector<std::string> legend;
+    for (const Series& series : plot.series) legend.push_back(printable(series.name));
+    return draw_both(script_of(plot), legend, stem);
+}
+
+Status draw(const Bars& bars, const std::filesystem::path& stem) {
+    std::vector<std::string> legend;
+    for (const std::string& segment : bars.segments) legend.push_back(printable(segment));
+    return draw_both(script_of(bars), legend, stem);
+}
 
 }  // namespace swath::sim

@@ -102,6 +102,23 @@ TEST(Draw, BeginsAxesAtZeroOrAtTheLeastNumber) {
     EXPECT_THAT(drawn(plot).svg, HasSubstr("<text>-40</text>"));
 }
 
+TEST(Draw, MakesRoomForALegendOfManyNames) {
+    Plot plot = speed_up();
+    EXPECT_THAT(drawn(plot).svg, HasSubstr("viewBox=\"0 0 900 540\""));
+    while (plot.series.size() < 30) plot.series.push_back(plot.series.front());
+    EXPECT_THAT(drawn(plot).svg, HasSubstr("viewBox=\"0 0 900 1180\""));
+    plot.series.front().name = std::string(60, 'n');
+    EXPECT_THAT(drawn(plot).svg, HasSubstr("viewBox=\"0 0 1200 1180\""));
+}
+
+TEST(Draw, PutsTicsWhereThePointsAre) {
+    Plot plot = speed_up();
+    plot.series = {{"a", {{3, 1}, {7, 2}}, Style::kLine, {}}};
+    EXPECT_THAT(drawn(plot).svg, testing::AllOf(HasSubstr("<text> 3</text>"), HasSubstr("<text> 7</text>")));
+    plot.series.front().points.emplace_back(7.1, 3);  // too close
+    EXPECT_THAT(drawn(plot).svg, Not(HasSubstr("<text> 7.1</text>")));
+}
+
 TEST(Draw, WritesTheSameBytesAgain) {
     const Drawn first = drawn(speed_up());
     const Drawn second = drawn(speed_up());
