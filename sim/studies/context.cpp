@@ -50,6 +50,13 @@ double Results::value(Algorithm algorithm, const std::string& model, std::size_t
     throw CheckFailed(fmt::format("no {} of {}, {}, {} servers", column, name_of(algorithm), model, servers));
 }
 
+std::vector<Row> Results::rows() const {
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < experiments.size(); ++i)
+        std::ranges::move(all_rows(experiments[i], outcomes[i]), std::back_inserter(rows));
+    return rows;
+}
+
 StudyContext::StudyContext(const StudyOptions& options)
     : options_(options), page_("Hybrid sort-first and sort-last rendering: the paper's studies, run again") {}
 

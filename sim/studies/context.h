@@ -36,6 +36,7 @@ struct Results {
     // A column of paper mode (table1, client, effective_frame) or full mode; CHECKs that it is there.
     double value(Algorithm algorithm, const std::string& model, std::size_t servers,
                  std::string_view column) const;
+    std::vector<Row> rows() const;  // all_rows() of all
 };
 
 // What the studies share: models, hardware, the page, and the results that several of them need.

@@ -101,7 +101,6 @@ Status feasibility(StudyContext& context) {
         "Sort-first is MAHD.");
 
     std::vector<Row> table1;
-    std::vector<Row> modes;
     for (const StudySubject& subject : context.subjects()) {
         const std::string& name = subject.model.name;
         const ObjectSet& scene = subject.model.scene;
@@ -118,7 +117,6 @@ Status feasibility(StudyContext& context) {
         for (std::size_t i = 0; i < results.experiments.size(); ++i) {
             const Experiment& e = results.experiments[i];
             if (e.model != &subject.model) continue;
-            std::ranges::copy(all_rows(e, results.outcomes[i]), std::back_inserter(modes));
             if (!in_paper(e)) continue;
             std::ranges::copy(table1_rows(e, results.outcomes[i]), std::back_inserter(table1));
             table.rows.push_back(cells(e, results.outcomes[i], subject));
@@ -135,7 +133,7 @@ Status feasibility(StudyContext& context) {
         page.table(table, caption);
     }
     if (auto status = context.write("table1.csv", to_csv(table1)); !status) return status;
-    if (auto status = context.write("modes.csv", to_csv(modes)); !status) return status;
+    if (auto status = context.write("modes.csv", to_csv(results.rows())); !status) return status;
 
     const StudySubject& subject = context.figures_subject();
     const std::string caption = fmt::format(

@@ -97,10 +97,7 @@ Status granularity(StudyContext& context) {
         std::ranges::move(context.experiments(subject, model, kAlgorithms, kPaperWidth, kPaperHeight),
                           std::back_inserter(experiments));
     const Results results = context.run(std::move(experiments), "granularity");
-    std::vector<Row> rows;
-    for (std::size_t i = 0; i < results.experiments.size(); ++i)
-        std::ranges::move(all_rows(results.experiments[i], results.outcomes[i]), std::back_inserter(rows));
-    if (auto status = context.write("granularity.csv", to_csv(rows)); !status) return status;
+    if (auto status = context.write("granularity.csv", to_csv(results.rows())); !status) return status;
 
     Page& page = context.page();
     page.section("Object granularity: figures 12, 13 and 14");

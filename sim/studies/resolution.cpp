@@ -16,10 +16,7 @@ Status resolution(StudyContext& context) {
     const Results high = context.run(
         context.experiments(subject, subject.model, kAlgorithms, 2 * kPaperWidth, 2 * kPaperHeight),
         "resolution");
-    std::vector<Row> rows;
-    for (std::size_t i = 0; i < high.experiments.size(); ++i)
-        std::ranges::move(all_rows(high.experiments[i], high.outcomes[i]), std::back_inserter(rows));
-    if (auto status = context.write("resolution.csv", to_csv(rows)); !status) return status;
+    if (auto status = context.write("resolution.csv", to_csv(high.rows())); !status) return status;
 
     Page& page = context.page();
     page.section("Screen resolution: figure 11");
