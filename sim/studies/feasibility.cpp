@@ -85,7 +85,9 @@ void show_modes(const Results& results, const StudySubject& subject, Page& page)
              fmt::format("{} ({:.0f} %)", busiest.resource, busiest.share * 100)});
     }
     page.table(table, fmt::format("{}: stages in ms a frame. Full mode lets them all work at once and sends "
-                                  "only what is covered; its speed-up includes client and display.",
+                                  "of a tile only the bounds of what is drawn there; its speed-up includes "
+                                  "client, network and display. How busy the busiest is counts from the "
+                                  "run's beginning to its end.",
                                   subject.model.name));
 }
 
@@ -140,7 +142,7 @@ Status feasibility(StudyContext& context) {
     const StudySubject& subject = context.figures_subject();
     const std::string caption = fmt::format(
         "Figure 6 for {} (the paper shows the Buddha): the slowest of the three stages decides. The client's "
-        "time is an estimate, since the paper prints it only as a curve.",
+        "time is what the hardware profile says; the paper prints it only as a curve.",
         subject.model.name);
     if (auto status = context.figure(figure_6(results, subject.model.name), "figure_6", caption); !status)
         return status;
