@@ -18,10 +18,11 @@ a:focus-visible, .scroll:focus-visible { outline: 2px solid var(--soft); outline
 .scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .2rem .5rem; text-align: right; border-bottom: 1px solid var(--line); }
 tbody > tr > * { white-space: nowrap; } tbody th { font-weight: inherit; }
-tr > :first-child { text-align: left; } thead th { vertical-align: bottom; border-bottom: 2px solid var(--soft); }
+tr > :first-child { text-align: left; position: sticky; left: 0; background: var(--paper); } thead th { vertical-align: bottom; border-bottom: 2px solid var(--soft); }
 figcaption { color: var(--soft); font-size: .88rem; padding: .3rem 0; max-width: 52rem; }
 figure { margin: 1.5rem 0; } .row { display: flex; flex-wrap: wrap; gap: 1rem; }
-.row > div { flex: 1 1 20rem; min-width: 0; } img { width: 100%; height: auto; background: #fff; border-radius: .4rem; }
+.row > div { flex: 1 1 20rem; min-width: 0; overflow-x: auto; } img { width: 100%; height: auto; background: #fff; border-radius: .4rem; }
+img[src$=".svg"] { min-width: 36rem; }
 )css";
 
 std::string escaped(std::string_view text) {
