@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
             "FILE", inputs,
             "[LABEL=]FILE: a table as this program writes them (or sim/published/table1.csv), or a "
             "timeline of\nswath-client --timeline FILE.csv; those of one label make a curve and need "
-            "one of a single server")
+            "one of a single server\n(or of --single, which is nearer to what simulated speed-ups are over)")
         ->required();
     compare_command->add_option("--out", compare_out, "folder for compare.csv, .svg and .png")->required();
 

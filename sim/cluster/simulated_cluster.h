@@ -38,6 +38,7 @@ ResourceUse busiest(std::span<const ResourceUse> use);  // the first of equals; 
 struct ClusterRunCosts {
     // Mean from one complete picture to the next, once the pipeline is full: over the run's last frames, as
     // many whole rounds of frames in flight as follow a first picture. Of a run without one, over all of it.
+    // What was done ahead of that picture is missing: some per cent of five frames, nothing much of ten.
     double frame_s = 0;
     double latency_s = 0;  // mean, from the beginning of a frame's partition to its complete picture
     double single_s = 0;   // mean over frame_s's frames: one server draws all there is and does nothing else

@@ -83,7 +83,7 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
         ->excludes(depths);
     app.add_option("--path", path_.path, "of the camera: random (seeded, the paper's), orbit, or a FILE")
         ->capture_default_str();
-    app.add_option("--frames", path_.frames, "of a path")
+    app.add_option("--frames", path_.frames, "of a path; full mode takes about ten to settle")
         ->capture_default_str()
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}));
     app.add_option("--zoom", path_.zoom, "1: the model about fills the picture's height")
