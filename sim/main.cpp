@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
             "FILE", inputs,
             "[LABEL=]FILE: a table as this program writes them (or sim/published/table1.csv), or a "
             "timeline of\nswath-client --timeline FILE.csv; those of one label make a curve and need "
-            "one of a single server")
+            "one of a single server\n(or of --single, which is nearer to what simulated speed-ups are over)")
         ->required();
     compare_command->add_option("--out", compare_out, "folder for compare.csv, .svg and .png")->required();
 
@@ -75,9 +75,10 @@ int main(int argc, char** argv) {
     } else if (compare_command->parsed()) {
         const auto curves = read_curves(inputs);
         status = curves ? write_comparison(*curves, compare_out) : tl::unexpected(curves.error());
+        if (status) std::cout << "comparison: " << compare_out << "/compare.svg, .png and .csv\n";
     } else if (profile.empty()) {
         for (const std::string& name : builtin_hardware())
-            std::cout << name << "  " << find_hardware(name)->about << '\n';
+            std::cout << fmt::format("{:<10}  {}\n", name, find_hardware(name)->about);
     } else {
         const auto hardware = find_hardware(profile);
         if (hardware)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "client/director/director.h"
@@ -12,6 +13,7 @@
 #include "sim/cluster/simulated_server.h"
 #include "sim/cost/client_time.h"
 #include "sim/cost/frame_work.h"
+#include "sim/cost/pricer.h"
 #include "sim/engine/event_queue.h"
 #include "sim/engine/flow_network.h"
 #include "sim/engine/station.h"
@@ -95,9 +97,7 @@ class Cluster {
         const FramePlan plan = partitioner_->partition({number, view, objects, scenario_.servers});
         Frame& frame = frames_[number];
         frame.work = frame_work(plan, objects, scenario_.hardware);
-        double polygons = 0;
-        for (const ProjectedObject& object : objects) polygons += static_cast<double>(object.work);
-        single_s_ += polygons * scenario_.hardware.server.polygon_s;
+        singles_s_.push_back(drawing_s(objects));
         const double time_s =
             client_s(objects.size(), scenario_.servers, scenario_.algorithm, scenario_.hardware);
         client_.submit(nanoseconds(time_s), [this, number](Nanoseconds begin, Nanoseconds end) {
@@ -106,6 +106,17 @@ class Cluster {
             issued.client.spans.push_back({Phase::kPartition, begin, end, end - begin});
             send_tasks(number);
         });
+    }
+
+    // What one server that draws all of it takes.
+    double drawing_s(std::span<const ProjectedObject> objects) const {
+        double polygons = 0;
+        Rect covered;
+        for (const ProjectedObject& object : objects) {
+            polygons += static_cast<double>(object.work);
+            if (object.work > 0) covered = bounding(covered, object.box);
+        }
+        return Pricer(scenario_.hardware).render_s(polygons, covered);
     }
 
     void send_tasks(FrameNumber number) {
@@ -198,14 +209,21 @@ class Cluster {
     }
 
     ClusterRunCosts costs() {
-        const auto frames = static_cast<double>(pictures_.size());
+        const std::size_t frames = pictures_.size();
         const double run_s = seconds(events_.now());
         ClusterRunCosts costs;
-        costs.single_s = single_s_ / frames;
-        costs.latency_s = latency_s_ / frames;
-        costs.frame_s = pictures_.size() > 1 ? seconds(pictures_.back() - pictures_.front()) / (frames - 1)
-                                             : costs.latency_s;
+        costs.latency_s = latency_s_ / static_cast<double>(frames);
         costs.events = events_.executed();
+        // A frame begins when the one `frames_in_flight` before it is over, so pictures come in rounds of so
+        // many, and within a round perhaps in a burst: only whole rounds have the mean distance. Those at
+        // the end count; what is left over at the beginning, where the pipeline fills, does not.
+        const std::size_t rounds = (frames - 1) / scenario_.frames_in_flight;
+        const std::size_t counted = rounds > 0 ? rounds * scenario_.frames_in_flight : frames;
+        const Nanoseconds begin = rounds > 0 ? pictures_[frames - 1 - counted] : Nanoseconds(0);
+        costs.frame_s = seconds(pictures_.back() - begin) / static_cast<double>(counted);
+        costs.single_s =
+            std::accumulate(singles_s_.end() - static_cast<std::ptrdiff_t>(counted), singles_s_.end(), 0.0) /
+            static_cast<double>(counted);
 
         const auto share = [&](double busy_s) { return run_s > 0 ? busy_s / run_s : 0; };
         const auto on_link = [&](double bytes) { return bytes / scenario_.hardware.network.bytes_per_s; };
@@ -219,7 +237,10 @@ class Cluster {
             link_s = std::max({link_s, on_link(network_.bytes_out(at)), on_link(network_.bytes_in(at))});
         }
         const bool on_card = scenario_.hardware.server.compositing == Compositing::kGraphics;
+        const double client_link_s =
+            std::max(on_link(network_.bytes_out(kClient)), on_link(network_.bytes_in(kClient)));
         costs.use.push_back({"client", share(seconds(client_.busy()))});
+        costs.use.push_back({"client network", share(client_link_s)});
         costs.use.push_back({on_card ? "server graphics" : "server drawing", share(draw_s)});
         if (!on_card) costs.use.push_back({"server compositing", share(host_s)});
         costs.use.push_back({"server network", share(link_s)});
@@ -247,7 +268,7 @@ class Cluster {
     std::vector<FrameTimeline> timelines_;
     std::vector<Nanoseconds> pictures_;  // when each was complete
     double latency_s_ = 0;
-    double single_s_ = 0;
+    std::vector<double> singles_s_;  // by frame
 };
 
 }  // namespace

@@ -26,17 +26,22 @@ struct ClusterScenario {
     bool keep_timelines = false;
 };
 
-// How much of the run a resource was at work, 0 to 1; of the busiest machine where several have one.
+// How much of the run a resource was at work, 0 to 1; of the busiest machine where several have one. The run
+// includes its beginning, when the display has nothing yet, and its end: of a few frames even the
+// bottleneck's share is less than 1.
 struct ResourceUse {
-    std::string resource;  // "server draw", "display network", ...
+    std::string resource;  // "server graphics", "display network", ...
     double share = 0;
 };
 ResourceUse busiest(std::span<const ResourceUse> use);  // the first of equals; `use` is not empty
 
 struct ClusterRunCosts {
-    double frame_s = 0;    // between one complete picture and the next, over the whole run
+    // Mean from one complete picture to the next, once the pipeline is full: over the run's last frames, as
+    // many whole rounds of frames in flight as follow a first picture. Of a run without one, over all of it.
+    // What was done ahead of that picture is missing: some per cent of five frames, nothing much of ten.
+    double frame_s = 0;
     double latency_s = 0;  // mean, from the beginning of a frame's partition to its complete picture
-    double single_s = 0;   // mean a frame: one server that draws all there is to draw and does nothing else
+    double single_s = 0;   // mean over frame_s's frames: one server draws all there is and does nothing else
     std::vector<ResourceUse> use;          // in a fixed order
     std::vector<FrameTimeline> timelines;  // if wanted
     std::uint64_t events = 0;

@@ -111,15 +111,18 @@ std::vector<Row> PaperMeans::table1(const Row& of, Grouping grouping, double ide
     const auto add = [&](const char* column, double value) {
         rows.push_back({of.algorithm, of.model, of.servers, column, value});
     };
+    // Neither can be less than zero: below it is rounding.
+    const double overlap_ms = std::max(0.0, mean_.render_s * to_ms - ideal_ms);
+    const double imbalance_ms = std::max(0.0, total_ms - mean_.total_s() * to_ms);
     add("ideal_render", ideal_ms);
     if (grouping == Grouping::kAtLeastOnce) {
-        add("overlap_render", mean_.render_s * to_ms - ideal_ms);
+        add("overlap_render", overlap_ms);
     } else {
         add("pixel_read", mean_.read_s * to_ms);
         add("pixel_write", mean_.write_s * to_ms);
     }
     add("final_read", mean_.final_s * to_ms);
-    add("imbalance", total_ms - mean_.total_s() * to_ms);
+    add("imbalance", imbalance_ms);
     add("server_total", total_ms);
     add("display_write", display_s_ * to_ms);
     add("speedup", total_ms > 0 ? ideal_ms * static_cast<double>(of.servers) / total_ms : 0);

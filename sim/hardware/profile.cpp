@@ -91,7 +91,8 @@ class Setter {
     Status operator()(std::string& (*place)(Hardware&)) const {
         const std::string text = node_.value_or(std::string());
         if (!node_.is_string()) return fail("{}, expected a text", kind_of(node_));
-        if (text.empty() || text.size() > kMaxAbout || text.find('\n') != std::string::npos)
+        const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+        if (text.empty() || text.size() > kMaxAbout || std::ranges::any_of(text, is_control))
             return fail("expected one line of 1 to {} bytes", kMaxAbout);
         place(hardware_) = text;
         return {};

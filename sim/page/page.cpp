@@ -14,13 +14,15 @@ body { font: 16px/1.55 system-ui, sans-serif; color: var(--ink); background: var
 h1 { font-size: 1.9rem; line-height: 1.2; } h2 { margin-top: 3rem; border-top: 1px solid var(--line); padding-top: 1.2rem; }
 p, .note { max-width: 46rem; } a { color: inherit; }
 .note { background: var(--warn); padding: .6rem .9rem; border-radius: .4rem; }
-.scroll { overflow-x: auto; margin: 1.2rem 0; } table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
+a:focus-visible, .scroll:focus-visible { outline: 2px solid var(--soft); outline-offset: 2px; }
+.scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .2rem .5rem; text-align: right; border-bottom: 1px solid var(--line); }
-td { white-space: nowrap; } th { vertical-align: bottom; }
-th:first-child, td:first-child { text-align: left; } thead th { border-bottom: 2px solid var(--soft); }
-caption, figcaption { text-align: left; color: var(--soft); font-size: .88rem; padding: .3rem 0; caption-side: bottom; }
+tbody > tr > * { white-space: nowrap; } tbody th { font-weight: inherit; }
+tr > :first-child { text-align: left; position: sticky; left: 0; background: var(--paper); } thead th { vertical-align: bottom; border-bottom: 2px solid var(--soft); }
+figcaption { color: var(--soft); font-size: .88rem; padding: .3rem 0; max-width: 52rem; }
 figure { margin: 1.5rem 0; } .row { display: flex; flex-wrap: wrap; gap: 1rem; }
-.row > div { flex: 1 1 20rem; min-width: 0; } img { width: 100%; height: auto; background: #fff; border-radius: .4rem; }
+.row > div { flex: 1 1 20rem; min-width: 0; overflow-x: auto; } img { width: 100%; height: auto; background: #fff; border-radius: .4rem; }
+img[src$=".svg"] { min-width: 36rem; }
 )css";
 
 std::string escaped(std::string_view text) {
@@ -46,9 +48,17 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-std::string row_of(const std::vector<std::string>& cells, std::string_view tag) {
+std::string head_of(const std::vector<std::string>& cells) {
     std::string row = "<tr>";
-    for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+    for (const std::string& cell : cells) row += fmt::format("<th scope=\"col\">{}</th>", escaped(cell));
+    return row + "</tr>";
+}
+
+std::string row_of(const std::vector<std::string>& cells) {
+    std::string row = "<tr>";
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        row += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", escaped(cells[i]))
+                      : fmt::format("<td>{}</td>", escaped(cells[i]));
     return row + "</tr>\n";
 }
 
@@ -66,10 +76,14 @@ void Page::note(std::string_view paragraph) {
 }
 
 void Page::table(const PageTable& table, std::string_view caption) {
-    body_ += fmt::format("<div class=\"scroll\"><table><caption>{}</caption>\n<thead>{}</thead>\n<tbody>\n",
-                         escaped(caption), row_of(table.head, "th"));
-    for (const auto& row : table.rows) body_ += row_of(row, "td");
-    body_ += "</tbody></table></div>\n";
+    // A wide table scrolls in its place, also by keys; the caption does not scroll away with it.
+    body_ += fmt::format(
+        "<figure><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-labelledby=\"t{0}\"><table>\n"
+        "<thead>{1}</thead>\n<tbody>\n",
+        tables_, head_of(table.head));
+    for (const auto& row : table.rows) body_ += row_of(row);
+    body_ += fmt::format("</tbody></table></div><figcaption id=\"t{}\">{}</figcaption></figure>\n", tables_++,
+                         escaped(caption));
 }
 
 void Page::figure(const std::vector<Picture>& pictures, std::string_view caption) {

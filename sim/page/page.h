@@ -1,11 +1,12 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace swath::sim {
 
-// A table of text; the first column is left, all others right.
+// A table of text; the first column names the rows and is left, all others right.
 struct PageTable {
     std::vector<std::string> head;
     std::vector<std::vector<std::string>> rows;
@@ -33,6 +34,7 @@ class Page {
   private:
     std::string title_;
     std::vector<std::string> sections_;
+    std::size_t tables_ = 0;
     std::string body_;
 };
 

@@ -9,16 +9,17 @@
 namespace swath::sim {
 namespace {
 
-// 0 where the algorithm has no such column.
-double column(std::span<const Row> rows, std::string_view name) {
+// "-" where the algorithm has no such column.
+std::string cell(std::span<const Row> rows, std::string_view name) {
     const auto found = std::ranges::find(rows, name, &Row::column);
-    return found == rows.end() ? 0 : found->value;
+    return found == rows.end() ? "-" : fmt::format("{:.2f}", found->value);
 }
 
 std::string heading(const Experiment& e) {
-    return fmt::format("{}: {} polygons in {} objects, {}x{}, {}, {} frames\n", e.model_name,
+    const std::size_t frames = e.paths->size() * e.paths->front().size();
+    return fmt::format("{}: {} polygons in {} objects, {}x{}, {}, {} frame{}\n", e.model_name,
                        e.model->scene.mesh.triangle_count(), e.model->scene.objects.size(), e.width, e.height,
-                       e.hardware->name, e.paths->size() * e.paths->front().size());
+                       e.hardware->name, frames, frames == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -32,23 +33,22 @@ std::string side_by_side(std::span<const Experiment> experiments, std::span<cons
         if (i == 0 || e.model_name != experiments[i - 1].model_name) {
             if (i > 0) text += '\n';
             text += heading(e);
-            text += fmt::format("{:16}{:-^67} {:-^36}\n", "", " paper mode: server's phases, ms ",
-                                " full mode: everything at work ");
+            text += fmt::format("{:16}{:-^70} {:-^44}\n", "", " paper mode: server's phases, ms ",
+                                " full mode: everything at work, ms ");
             text +=
-                fmt::format("{:10}{:>6}{:>8}{:>8}{:>6}{:>6}{:>6}{:>8}{:>8}{:>8}{:>8}  {:>8}{:>8}{:>9} {}\n",
+                fmt::format("{:10}{:>6}{:>8}{:>8}{:>7}{:>7}{:>7}{:>8}{:>8}{:>8}{:>8}  {:>8}{:>8}{:>9} {}\n",
                             "algorithm", "N", "ideal", "overlap", "read", "write", "final", "imbal.", "total",
-                            "display", "speedup", "frame ms", "speedup", "latency", "busiest");
+                            "display", "speedup", "frame", "speedup", "latency", "busiest");
         }
         const std::vector<Row> rows = table1_rows(e, outcome);
-        text +=
-            fmt::format("{:10}{:>6}{:>8.1f}{:>8.1f}{:>6.1f}{:>6.1f}{:>6.1f}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.2f}",
-                        e.algorithm_name, e.servers, column(rows, "ideal_render"),
-                        column(rows, "overlap_render"), column(rows, "pixel_read"),
-                        column(rows, "pixel_write"), column(rows, "final_read"), column(rows, "imbalance"),
-                        column(rows, "server_total"), column(rows, "display_write"), column(rows, "speedup"));
+        text += fmt::format("{:10}{:>6}{:>8}{:>8}{:>7}{:>7}{:>7}{:>8}{:>8}{:>8}{:>8}", e.algorithm_name,
+                            e.servers, cell(rows, "ideal_render"), cell(rows, "overlap_render"),
+                            cell(rows, "pixel_read"), cell(rows, "pixel_write"), cell(rows, "final_read"),
+                            cell(rows, "imbalance"), cell(rows, "server_total"), cell(rows, "display_write"),
+                            cell(rows, "speedup"));
         if (!outcome.full.empty()) {
             const ResourceUse bottleneck = outcome.full.bottleneck();
-            text += fmt::format("  {:>8.1f}{:>8.2f}{:>9.1f} {} ({:.0f} %)", outcome.full.frame_s() * 1e3,
+            text += fmt::format("  {:>8.2f}{:>8.2f}{:>9.2f} {} ({:.0f} %)", outcome.full.frame_s() * 1e3,
                                 outcome.full.speedup(), outcome.full.latency_s() * 1e3, bottleneck.resource,
                                 bottleneck.share * 100);
         }

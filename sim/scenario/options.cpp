@@ -53,7 +53,7 @@ std::size_t threads_or_all(std::size_t wanted) {
 void ScenarioFlags::add_to(CLI::App& app, bool many) {
     const std::string list = many ? "; several with commas between" : "";
     const auto values = [&](CLI::Option* option) {
-        option->delimiter(',')->capture_default_str();
+        option->delimiter(',');
         if (!many) option->expected(1);
         return option;
     };
@@ -72,8 +72,9 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
         ->delimiter(',')
         ->capture_default_str();
     values(app.add_option("--hardware", hardware_,
-                          "a profile's name (see swath-sim hardware) or a FILE.toml" + list));
-    values(app.add_option("--size", sizes_, "of the picture in pixels" + list));
+                          "a profile's name (see swath-sim hardware) or a FILE.toml" + list))
+        ->capture_default_str();
+    values(app.add_option("--size", sizes_, "of the picture in pixels" + list))->capture_default_str();
     auto* depths =
         values(app.add_option("--octree-depth", depths_, "that cuts the model into objects [4]" + list)
                    ->check(CLI::Range(0, kMaxOctreeDepth)));
@@ -82,7 +83,7 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
         ->excludes(depths);
     app.add_option("--path", path_.path, "of the camera: random (seeded, the paper's), orbit, or a FILE")
         ->capture_default_str();
-    app.add_option("--frames", path_.frames, "of a path")
+    app.add_option("--frames", path_.frames, "of a path; full mode takes about ten to settle")
         ->capture_default_str()
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}));
     app.add_option("--zoom", path_.zoom, "1: the model about fills the picture's height")

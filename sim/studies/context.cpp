@@ -1,9 +1,12 @@
 #include "sim/studies/context.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "common/base/check.h"
@@ -39,6 +42,20 @@ std::string table_name(Algorithm algorithm) {
     return algorithm == Algorithm::kMahd ? "sort-first" : std::string(name_of(algorithm));
 }
 
+std::string file_name_of(std::string_view text) {
+    std::string name;
+    for (const char c : text) {
+        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                              c == '-' || c == '_' || c == '.';
+        name += is_plain ? std::string(1, c) : fmt::format("~{:02x}", static_cast<unsigned char>(c));
+    }
+    return name;
+}
+
+std::string quotient(double of, double by, int decimals) {
+    return by > 0 ? fmt::format("{:.{}f}", of / by, decimals) : "–";
+}
+
 double Results::value(Algorithm algorithm, const std::string& model, std::size_t servers,
                       std::string_view column) const {
     for (std::size_t i = 0; i < experiments.size(); ++i) {
@@ -70,6 +87,8 @@ Result<StudyContext> StudyContext::open(const StudyOptions& options) {
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error) return fail("--out: {}: {}", options.out.string(), error.message());
+    if (::access(options.out.c_str(), W_OK | X_OK) != 0)
+        return fail("--out: {}: {}", options.out.string(), std::strerror(errno));
 
     const auto is_paper_model = [](const ModelName& model) { return paper_model(model.name) != nullptr; };
     if (options.models.empty() || std::ranges::any_of(options.models, is_paper_model))
@@ -81,12 +100,24 @@ Result<StudyContext> StudyContext::open(const StudyOptions& options) {
         if (is_paper_model(name)) continue;
         if (auto status = context.add_subject(name, false); !status) return tl::unexpected(status.error());
     }
+    for (const auto& [name, zoom] : options.zooms)
+        if (!context.has_subject(name)) return fail("--zoom: no model is called '{}'", name);
     return context;
 }
 
+bool StudyContext::has_subject(const std::string& name) const {
+    return std::ranges::any_of(subjects_, [&](const StudySubject& s) { return s.model.name == name; });
+}
+
 Status StudyContext::add_paper_subject(const std::string& name, const std::string& stand_in) {
-    for (const ModelName& given : options_.models)
-        if (lower(given.name) == name) return add_subject(given, false);
+    const ModelName* ours = nullptr;
+    for (const ModelName& given : options_.models) {
+        if (lower(given.name) != name) continue;
+        if (ours != nullptr)
+            return fail("--model: '{}' and '{}' are both the paper's {}", ours->name, given.name, name);
+        ours = &given;
+    }
+    if (ours != nullptr) return add_subject(*ours, false);
     const std::string file = fmt::format("models/{}.ply", name);
     if (std::filesystem::exists(file)) return add_subject({name, file}, false);
     const std::string absent = fmt::format(
@@ -101,6 +132,7 @@ Status StudyContext::add_paper_subject(const std::string& name, const std::strin
 }
 
 Status StudyContext::add_subject(const ModelName& name, bool stand_in) {
+    if (has_subject(name.name)) return fail("--model: two models are called '{}'", name.name);
     auto model = load_study_model(name.name, name.file, {kPaperDepth, 0});
     if (!model) return fail_in("--model " + name.name, model.error());
     StudySubject subject{std::move(*model), name.file, {}, stand_in, 1, {}};

@@ -19,6 +19,12 @@ inline constexpr std::array<std::size_t, 4> kPaperServers{8, 16, 32, 64};
 // What tables call an algorithm: sort-first is the paper's, MAHD.
 std::string table_name(Algorithm algorithm);
 
+// The text as part of a file's name, and of a link to it: plain characters as they are, others as "~2f". No
+// two texts have the same.
+std::string file_name_of(std::string_view text);
+// A cell: of / by, or a dash where there is nothing to divide by.
+std::string quotient(double of, double by, int decimals);
+
 // A model that the studies use.
 struct StudySubject {
     StudyModel model;  // cut at kPaperDepth
@@ -73,6 +79,7 @@ class StudyContext {
     // The paper's model of that name: the one given, else from models/, else the stand-in, if there is one.
     Status add_paper_subject(const std::string& name, const std::string& stand_in);
     Status add_subject(const ModelName& name, bool stand_in);
+    bool has_subject(const std::string& name) const;
 
     StudyOptions options_;
     std::list<Hardware> hardware_store_;

@@ -30,8 +30,8 @@ void StudyFlags::add_to(CLI::App& app) {
                    "NAME=FILE, repeatable: hand, dragon and buddha are shown beside the paper's figures and "
                    "looked for in models/NAME.ply if they are not named; with other names only, those alone");
     app.add_option("--zoom", zooms_,
-                   "MODEL=ZOOM, repeatable [dragon=1.06, buddha=1.33, others 1: what the paper's screen "
-                   "coverage suggests]");
+                   "MODEL=ZOOM, repeatable [hand=1.25, dragon=1.06, buddha=1.33: what the paper's screen "
+                   "coverage suggests; others 1]");
     app.add_option("--hardware", options_.hardware,
                    "a profile's name (see swath-sim hardware) or a FILE.toml")
         ->capture_default_str();
@@ -71,7 +71,7 @@ Result<StudyOptions> StudyFlags::read() const {
     for (const std::string& text : zooms_) {
         const auto zoom = parse_zoom(text);
         if (!zoom) return tl::unexpected(zoom.error());
-        options.zooms.insert(*zoom);
+        if (!options.zooms.insert(*zoom).second) return fail("--zoom: '{}' has two of them", zoom->first);
     }
     options.threads = threads_or_all(threads_);
     return options;

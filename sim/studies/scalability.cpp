@@ -102,7 +102,8 @@ Status scalability(StudyContext& context) {
         if (!each.paper_name.empty())
             caption += each.stand_in ? " Points are the paper's, of a mesh that this one stands in for."
                                      : " Points are the paper's.";
-        if (auto status = context.figure(figure_9(results, each), "figure_9_" + each.model.name, caption);
+        if (auto status =
+                context.figure(figure_9(results, each), "figure_9_" + file_name_of(each.model.name), caption);
             !status)
             return status;
     }

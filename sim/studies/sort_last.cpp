@@ -20,11 +20,11 @@ PageTable comparison(const Results& results, const std::string& model) {
         };
         const double hybrid = value(Algorithm::kHybrid, "speedup");
         const double last = value(Algorithm::kSortLast, "speedup");
-        table.rows.push_back(
-            {std::to_string(servers), fmt::format("{:.2f}", hybrid), fmt::format("{:.2f}", last),
-             fmt::format("{:.2f}", hybrid / last), fmt::format("{:.1f}", moved(Algorithm::kHybrid)),
-             fmt::format("{:.1f}", moved(Algorithm::kSortLast)),
-             fmt::format("{:.1f}", moved(Algorithm::kSortLast) / moved(Algorithm::kHybrid))});
+        table.rows.push_back({std::to_string(servers), fmt::format("{:.2f}", hybrid),
+                              fmt::format("{:.2f}", last), quotient(hybrid, last, 2),
+                              fmt::format("{:.1f}", moved(Algorithm::kHybrid)),
+                              fmt::format("{:.1f}", moved(Algorithm::kSortLast)),
+                              quotient(moved(Algorithm::kSortLast), moved(Algorithm::kHybrid), 1)});
     }
     return table;
 }
@@ -42,8 +42,8 @@ Status sort_last(StudyContext& context) {
     Page& page = context.page();
     page.section("Comparison with sort-last");
     page.text(
-        "Sort-last draws everything once and needs hardly any client, but its servers move far more pixels: "
-        "whole areas, where the hybrid moves borders.");
+        "Sort-last draws everything once and divides nothing anew in a frame, but where the hybrid's servers "
+        "exchange borders, its exchange whole areas.");
     for (const StudySubject& subject : context.subjects())
         page.table(
             comparison(results, subject.model.name),

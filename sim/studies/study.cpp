@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iostream>
 
 #include "sim/studies/published.h"
 #include "sim/studies/studies.h"
@@ -47,6 +48,11 @@ void introduce(StudyContext& context) {
     }
     page.table(table, "Objects are the triangles whose centres fall into one cell of an octree of depth 4.");
     for (const std::string& absence : context.absences()) page.note(absence);
+    if (options.hardware != StudyOptions{}.hardware)
+        page.note(
+            fmt::format("The paper's numbers are of its own hardware, ours of {}: beside each other they "
+                        "compare two clusters, and do not say how well the paper is reproduced.",
+                        context.hardware().name));
 }
 
 }  // namespace
@@ -65,7 +71,9 @@ Status run_studies(const StudyOptions& options) {
         if (std::ranges::find(options.names, study.name) == options.names.end()) continue;
         if (auto status = study.run(*context); !status) return fail_in(study.name, status.error());
     }
-    return context->write("index.html", context->page().html());
+    if (auto status = context->write("index.html", context->page().html()); !status) return status;
+    std::cout << "page: " << (options.out / "index.html").string() << '\n';
+    return {};
 }
 
 }  // namespace swath::sim

@@ -128,6 +128,52 @@ TEST(SimulatedCluster, IsLimitedByTheDisplayWhereThatIsSlowest) {
     EXPECT_EQ(busiest(costs.use).resource, "display");
 }
 
+// Three frames begin together and their pictures come in a burst, then all wait for the network.
+TEST(SimulatedCluster, FramesTakeTheSameHoweverManyThereAre) {
+    const std::vector<Object> objects{cube({0, 0, 0}, 0.3f, 50)};
+    Hardware hardware = free_hardware();
+    hardware.network.latency_s = 10e-3;
+    hardware.display.colour.latency_s = 2e-3;
+    constexpr double kRound = 3 * 10e-3 + 2e-3;  // the task, the tile, the picture, the report
+    for (const std::size_t frames : {4u, 5u, 6u, 7u, 8u, 50u}) {
+        const std::vector<Camera> cameras(frames, front_camera());
+        EXPECT_NEAR(simulate(scenario_of(objects, cameras, hardware, 1, 3)).frame_s, kRound / 3, kNothing)
+            << frames;
+    }
+    for (const std::size_t frames : {1u, 2u, 3u}) {
+        const std::vector<Camera> cameras(frames, front_camera());
+        const auto n = static_cast<double>(frames);
+        EXPECT_NEAR(simulate(scenario_of(objects, cameras, hardware, 1, 3)).frame_s, (20e-3 + n * 2e-3) / n,
+                    kNothing)
+            << frames;
+    }
+}
+
+TEST(SimulatedCluster, SharesTheClientsLinkAmongItsServers) {
+    std::vector<Object> objects;
+    for (int i = 0; i < 16; ++i)
+        objects.push_back(cube(
+            {static_cast<float>(i % 4) * 0.4f - 0.6f, static_cast<float>(i / 4) * 0.4f - 0.6f, 0}, 0.1f, 50));
+    const std::vector<Camera> cameras(10, front_camera());
+    Hardware hardware = free_hardware();
+    hardware.network.bytes_per_s = 1e6;
+    hardware.network.swath_bytes_per_pixel = hardware.network.tile_bytes_per_pixel = 1e-9;
+    const auto costs = simulate(scenario_of(objects, cameras, hardware, 16, 3));
+    EXPECT_EQ(busiest(costs.use).resource, "client network");
+    EXPECT_GT(busiest(costs.use).share, 0.8);
+}
+
+TEST(SimulatedCluster, ComparesWithAServerThatAlsoFillsPixels) {
+    const std::vector<Object> objects{cube({0, 0, 0}, 0.3f, 50)};
+    const std::vector<Camera> cameras(2, front_camera());
+    Hardware hardware = free_hardware();
+    hardware.server.polygon_s = 1e-6;
+    hardware.server.fill_pixels_per_s = 1e6;
+    const auto costs = simulate(scenario_of(objects, cameras, hardware, 1, 1));
+    EXPECT_NEAR(costs.single_s, pixels_of(objects[0]) / 1e6, 1e-12);
+    EXPECT_NEAR(costs.frame_s, costs.single_s, kNothing);
+}
+
 TEST(SimulatedCluster, ShowsBackgroundWhereNothingIsVisible) {
     const std::vector<Object> objects{cube({0, 0, 50}, 0.3f, 50)};  // behind the camera
     const std::vector<Camera> cameras(5, front_camera());

@@ -147,7 +147,7 @@ TEST_P(EveryAlgorithm, GivesTheSameRunTwice) {
 }
 
 TEST_P(EveryAlgorithm, IsNeverFasterThanItsBusiestResource) {
-    constexpr std::size_t kFrames = 12;
+    constexpr std::size_t kFrames = 40;
     const std::vector<Camera> cameras(kFrames, path(1)[0]);  // all frames are alike
     for (const Hardware& hardware : {paper(), on_host()})
         for (const std::size_t servers : {1u, 5u, 16u})
@@ -162,10 +162,9 @@ TEST_P(EveryAlgorithm, IsNeverFasterThanItsBusiestResource) {
                             busy[station_of(machine.machine, span.phase, hardware.server.compositing)] +=
                                 span.end - span.begin;
                 for (const auto& [station, time] : busy) {
-                    // Work of frames that were in flight with the first picture was done before it.
                     const double frame_s = static_cast<double>(time.count()) * 1e-9 / kFrames;
-                    EXPECT_GE(costs.frame_s * (kFrames - 1) + 1e-6,
-                              frame_s * static_cast<double>(kFrames - in_flight))
+                    // Work that was done ahead before the first picture that counts is missing.
+                    EXPECT_GE(costs.frame_s, frame_s * 0.98)
                         << station << ", " << servers << " servers, " << in_flight << " in flight";
                 }
             }

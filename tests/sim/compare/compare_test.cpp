@@ -75,6 +75,14 @@ TEST_F(Compare, OrdersPointsByServersAndLeavesOutOtherColumns) {
     EXPECT_EQ(curves[0], (Curve{"ours", "a, m", {{8, 7}, {64, 40}}}));
 }
 
+TEST_F(Compare, TellsFullModeFromThePapers) {
+    const auto curves = curves_of({"ours=" + file("t.csv", kHeader + "a,m,8,speedup,7\na,m,8,full_speedup,6\n"
+                                                                     "a,m,1,full_speedup,1\n")});
+    ASSERT_EQ(curves.size(), 2u);
+    EXPECT_EQ(curves[0], (Curve{"ours", "a, m", {{8, 7}}}));
+    EXPECT_EQ(curves[1], (Curve{"ours", "a, m, full mode", {{1, 1}, {8, 6}}}));
+}
+
 TEST_F(Compare, DividesFramesASecondOfTimelinesByThatOfOneServer) {
     const auto curves =
         curves_of({"real=" + timeline("four.csv", 4, 300), "real=" + timeline("one.csv", 1, 1000),

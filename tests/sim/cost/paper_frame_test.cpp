@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <map>
 
 #include "sim/cost/client_time.h"
@@ -168,6 +170,19 @@ TEST(PaperMeans, OfSortFirstHaveOverlapInPlaceOfExchange) {
     auto more = columns(two_frames().table1(kOf, Grouping::kAtLeastOnce, 4e-3));
     EXPECT_NEAR(more.at("overlap_render"), 0.5, 1e-9);
     EXPECT_EQ(more.count("pixel_read") + more.count("pixel_write"), 0u);
+}
+
+// Plots refuse what is less than nothing, and "-0.0" looks like a mistake.
+TEST(PaperMeans, TakeNoRoundingForLessThanNothing) {
+    PaperMeans means;
+    for (int i = 0; i < 3; ++i) means.add({{{0.1, 0, 0, 0.2}, {0.1, 0, 0, 0.2}}, 0, 0});
+    for (const double ideal_s : {0.1, 0.1 * (1 + 1e-15), 0.1 * (1 - 1e-15)}) {
+        const auto found = columns(means.table1(kOf, Grouping::kAtLeastOnce, ideal_s));
+        for (const char* column : {"overlap_render", "imbalance"}) {
+            EXPECT_FALSE(std::signbit(found.at(column))) << column << " " << found.at(column);
+            EXPECT_NEAR(found.at(column), 0, 1e-9);
+        }
+    }
 }
 
 TEST(PaperMeans, NameTheSlowestStage) {

@@ -198,6 +198,7 @@ TEST(Profile, NamesTheLineTheKeyAndTheExpectationOfABadValue) {
               "mine:2: server.compositing: a number, expected \"graphics\" or \"host\"");
     EXPECT_EQ(error_with("about = 2000-01-01"), "mine:2: about: a date or time, expected a text");
     EXPECT_EQ(error_with("about = \"\""), "mine:2: about: expected one line of 1 to 200 bytes");
+    EXPECT_EQ(error_with("about = \"a bell\\u0007\""), "mine:2: about: expected one line of 1 to 200 bytes");
     EXPECT_EQ(error_with("about = \"two\\nlines\""), "mine:2: about: expected one line of 1 to 200 bytes");
 }
 

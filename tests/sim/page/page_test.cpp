@@ -21,6 +21,18 @@ TEST(Page, ListsItsSectionsAndKeepsTheOrder) {
     EXPECT_LT(html.find("Second</h2>"), html.find("two"));
 }
 
+TEST(Page, SaysWhichCellsNameOthersAndWhatATableIs) {
+    Page page("Title");
+    page.table({{"servers", "speed-up"}, {{"8", "7.2"}}}, "first");
+    page.table({{"a"}, {}}, "second");
+    const std::string html = page.html();
+    EXPECT_THAT(html, HasSubstr("<tr><th scope=\"col\">servers</th><th scope=\"col\">speed-up</th></tr>"));
+    EXPECT_THAT(html, HasSubstr("<tr><th scope=\"row\">8</th><td>7.2</td></tr>"));
+    EXPECT_THAT(html, HasSubstr("aria-labelledby=\"t0\""));
+    EXPECT_THAT(html, HasSubstr("<figcaption id=\"t0\">first</figcaption>"));
+    EXPECT_THAT(html, HasSubstr("<figcaption id=\"t1\">second</figcaption>"));
+}
+
 TEST(Page, EscapesWhatItIsGiven) {
     Page page("<title> & \"more\"");
     page.section("<script>");
@@ -31,8 +43,7 @@ TEST(Page, EscapesWhatItIsGiven) {
     const std::string html = page.html();
     EXPECT_THAT(html, HasSubstr("<title>&lt;title&gt; &amp; &quot;more&quot;</title>"));
     EXPECT_THAT(html, HasSubstr("src=\"a&quot;b.png\" alt=\"&lt;alt&gt;\""));
-    for (const char* raw :
-         {"<script>", "a < b", "<b>", "<th><th>", "<td><td>", "<caption><caption>", "<fig>"})
+    for (const char* raw : {"<script>", "a < b", "<b>", "><th>", "><td>", "<caption>", "<fig>"})
         EXPECT_THAT(html, Not(HasSubstr(raw)));
 }
 

@@ -65,6 +65,7 @@ bandwidth = "100 MB/s"
 swath = "8 B/pixel"
 tile = "4 B/pixel"
 active_share = 1
+tile_active_share = 1
 [client]
 transform = "3 us/object"
 [server]

@@ -115,6 +115,54 @@ TEST_F(Study, NamesWhatIsMissing) {
     EXPECT_THAT(folder.error().message, HasSubstr("--out"));
 }
 
+TEST_F(Study, RefusesNamesThatItCouldNotTellApartOrPlace) {
+    const auto error_of = [&](const StudyOptions& options) {
+        const Status status = run_studies(options);
+        return status ? "no error" : status.error().message;
+    };
+    StudyOptions options = small("names", {"feasibility"});
+    options.zooms = {{"knut", 2}};
+    EXPECT_THAT(error_of(options), HasSubstr("--zoom: no model is called 'knut'"));
+    options.zooms = {};
+    options.models = {{"dragon", "builtin:knot:300"}, {"Dragon", "builtin:knot:300"}};
+    EXPECT_THAT(error_of(options), HasSubstr("'dragon' and 'Dragon' are both the paper's dragon"));
+    options.models = {{"dragon", "builtin:knot:300"}, {"hand-stand-in", "builtin:knot:300"}};
+    EXPECT_THAT(error_of(options), HasSubstr("two models are called 'hand-stand-in'"));
+    EXPECT_FALSE(std::filesystem::exists(options.out / "index.html"));
+}
+
+// Whatever a model is called, its files are in the folder and the page finds them.
+TEST_F(Study, GivesFilesPlainNames) {
+    StudyOptions options = small("plain", {"scalability"});
+    options.models = {{"../a b#1%", "builtin:knot:300"}};
+    ASSERT_TRUE(run_studies(options));
+    const std::string name = "figure_9_..~2fa~20b~231~25.svg";
+    EXPECT_TRUE(std::filesystem::exists(options.out / name));
+    EXPECT_THAT(text_of(options.out / "index.html"), HasSubstr("src=\"" + name + "\""));
+}
+
+TEST_F(Study, OfASingleTriangleDividesByNothing) {
+    StudyOptions options = small("triangle", study_names());
+    options.models = {{"triangle", files_.write("triangle.ply",
+                                                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                                "property float y\nproperty float z\nelement face 1\n"
+                                                "property list uchar int vertex_indices\nend_header\n"
+                                                "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")}};
+    const Status status = run_studies(options);
+    ASSERT_TRUE(status) << status.error().message;
+    EXPECT_FALSE(std::regex_search(text_of(options.out / "index.html"), std::regex("\\b(nan|inf)\\b|>-0")));
+}
+
+TEST_F(Study, SaysWhenItsHardwareIsNotThePapers) {
+    StudyOptions options = small("paper", {"feasibility"});
+    ASSERT_TRUE(run_studies(options));
+    EXPECT_THAT(text_of(options.out / "index.html"), testing::Not(HasSubstr("compare two clusters")));
+    options = small("gbe", {"feasibility"});
+    options.hardware = "gbe-2026";
+    ASSERT_TRUE(run_studies(options));
+    EXPECT_THAT(text_of(options.out / "index.html"), HasSubstr("compare two clusters"));
+}
+
 class StudyFlagsTest : public testing::Test {
   protected:
     static Result<StudyOptions> read(std::vector<std::string> arguments) {
@@ -154,6 +202,8 @@ TEST_F(StudyFlagsTest, ThatAreWrongAreNamed) {
     EXPECT_THAT(error_of({"all", "--out", "x", "--zoom", "dragon"}),
                 HasSubstr("'dragon': expected MODEL=ZOOM"));
     EXPECT_THAT(error_of({"all", "--out", "x", "--zoom", "dragon=nan"}), HasSubstr("expected MODEL=ZOOM"));
+    EXPECT_THAT(error_of({"all", "--out", "x", "--zoom", "a=1", "--zoom", "a=2"}),
+                HasSubstr("'a' has two of them"));
     EXPECT_THAT(error_of({"all", "--out", "x", "--model", "a=b", "--model", "a=c"}), HasSubstr("two models"));
     EXPECT_THAT(error_of({"all", "--out", "x", "--seeds", "0"}), HasSubstr("--seeds"));
     EXPECT_THAT(error_of({"all", "--out", "x", "--seed", "-1"}), HasSubstr("--seed"));
