@@ -42,7 +42,7 @@ Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) 
 
 Status save_timeline(const std::string& file, const std::vector<FrameTimeline>& frames) {
     const std::string text = file.ends_with(".csv") ? to_csv(frames) : to_chrome_trace(frames);
-    return write_file(file, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    return write_file(file, text);
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
         auto scenario = run_flags.read();
         if (!scenario) return usage_error(scenario.error());
         run_options.scenario = std::move(*scenario);
+        if (const auto wrong = check(run_options); !wrong) return usage_error(wrong.error());
         status = run(run_options);
     } else if (sweep_command->parsed()) {
         auto scenario = sweep_flags.read();

@@ -72,4 +72,8 @@ Status write_file(const std::filesystem::path& path, std::span<const std::uint8_
     return {};
 }
 
+Status write_file(const std::filesystem::path& path, std::string_view text) {
+    return write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
 }  // namespace swath

@@ -171,8 +171,7 @@ Status write_comparison(std::span<const Curve> curves, const fs::path& folder) {
         for (const auto& [servers, speedup] : curve.points)
             rows.push_back({curve.name, curve.label, servers, std::string(kColumn), speedup});
     const std::string csv = to_csv(rows);
-    const std::span bytes(reinterpret_cast<const std::uint8_t*>(csv.data()), csv.size());
-    if (const Status written = write_file(folder / "compare.csv", bytes); !written) return written;
+    if (const Status written = write_file(folder / "compare.csv", csv); !written) return written;
     return draw(plot_of(curves), folder / "compare");
 }
 

@@ -98,6 +98,10 @@ void Page::figure(const std::vector<Picture>& pictures, std::string_view caption
     body_ += fmt::format("</div><figcaption>{}</figcaption></figure>\n", escaped(caption));
 }
 
+void Page::link(std::string_view file, std::string_view what) {
+    body_ += fmt::format("<p><a href=\"{0}\">{0}</a>: {1}</p>\n", escaped(file), escaped(what));
+}
+
 std::string Page::html() const {
     std::string contents;
     for (std::size_t i = 0; i < sections_.size(); ++i)

@@ -28,6 +28,7 @@ class Page {
         std::string caption;
     };
     void figure(const std::vector<Picture>& pictures, std::string_view caption);
+    void link(std::string_view file, std::string_view what);  // to a file beside the page
 
     std::string html() const;
 

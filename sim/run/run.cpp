@@ -10,28 +10,29 @@
 namespace swath::sim {
 namespace {
 
-Status write_text(const std::string& file, const std::string& text) {
-    return write_file(file, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
-}
-
 Status save_timeline(const Experiment& e, const std::string& file) {
     const auto costs = simulate({e.model->scene.objects, e.paths->front(), e.width, e.height, e.algorithm,
                                  e.servers, e.frames_in_flight, *e.hardware, true});
-    return write_text(file,
+    return write_file(file,
                       file.ends_with(".csv") ? to_csv(costs.timelines) : to_chrome_trace(costs.timelines));
 }
 
 }  // namespace
 
-Status run(const RunOptions& options) {
-    const bool knows_format = options.timeline.ends_with(".csv") || options.timeline.ends_with(".json");
-    if (!options.timeline.empty() && !knows_format)
+Status check(const RunOptions& options) {
+    if (options.timeline.empty()) return {};
+    if (!options.timeline.ends_with(".csv") && !options.timeline.ends_with(".json"))
         return fail("--timeline: '{}': the name must end in .csv or .json", options.timeline);
+    const std::size_t rows = options.scenario.algorithms.size() * options.scenario.servers.size();
+    if (rows > 1)
+        return fail("--timeline: shows one algorithm with one number of servers, not {} of them", rows);
+    return {};
+}
+
+Status run(const RunOptions& options) {
     const auto scenario = Scenario::load(options.scenario);
     if (!scenario) return tl::unexpected(scenario.error());
     const std::vector<Experiment>& experiments = scenario->experiments();
-    if (!options.timeline.empty() && experiments.size() > 1)
-        return fail("--timeline: shows one algorithm with one number of servers, not {}", experiments.size());
 
     const std::vector<Outcome> outcomes =
         run_experiments(experiments, options.scenario.threads, [](std::size_t, const Outcome&) {});
@@ -40,7 +41,7 @@ Status run(const RunOptions& options) {
         std::vector<Row> rows;
         for (std::size_t i = 0; i < experiments.size(); ++i)
             std::ranges::move(all_rows(experiments[i], outcomes[i]), std::back_inserter(rows));
-        if (const auto status = write_text(options.csv, to_csv(rows)); !status) return status;
+        if (const auto status = write_file(options.csv, to_csv(rows)); !status) return status;
         std::cout << "table: " << options.csv << '\n';
     }
     if (!options.timeline.empty()) {

@@ -12,6 +12,8 @@ struct RunOptions {
     std::string timeline;  // FILE.csv or FILE.json, of the one experiment's first path; none if empty
 };
 
+// What is wrong with the options together.
+Status check(const RunOptions& options);
 // `swath-sim run`: simulates one scenario and prints paper mode and full mode side by side.
 Status run(const RunOptions& options);
 

@@ -120,8 +120,10 @@ Status StudyContext::add_paper_subject(const std::string& name, const std::strin
     if (ours != nullptr) return add_subject(*ours, false);
     const std::string file = fmt::format("models/{}.ply", name);
     if (std::filesystem::exists(file)) return add_subject({name, file}, false);
+    std::string title = name;
+    title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
     const std::string absent = fmt::format(
-        "The paper's {} is not here ({} does not exist; --model {}=FILE names another place): ", name, file,
+        "The paper's {} is not here ({} does not exist; --model {}=FILE names another place): ", title, file,
         name);
     if (stand_in.empty()) {
         absences_.push_back(absent + "it is left out.");
@@ -201,8 +203,7 @@ const Results& StudyContext::table1() {
 }
 
 Status StudyContext::write(const std::string& file, std::string_view text) const {
-    return write_file(options_.out / file,
-                      std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    return write_file(options_.out / file, text);
 }
 
 }  // namespace swath::sim

@@ -139,6 +139,7 @@ Status feasibility(StudyContext& context) {
     }
     if (auto status = context.write("table1.csv", to_csv(table1)); !status) return status;
     if (auto status = context.write("modes.csv", to_csv(results.rows())); !status) return status;
+    page.link("table1.csv", "these numbers, without rounding to the paper's digits");
 
     const StudySubject& subject = context.figures_subject();
     const std::string caption = fmt::format(
@@ -148,6 +149,7 @@ Status feasibility(StudyContext& context) {
     if (auto status = context.figure(figure_6(results, subject.model.name), "figure_6", caption); !status)
         return status;
     show_modes(results, subject, page);
+    page.link("modes.csv", "all columns of both modes, for all models and also for KD-split");
     page.note(
         "Where the paper disagrees with itself: its text gives efficiencies of 55.0 to 70.5 per cent for 64 "
         "servers, its table 56.7 to 72.7. The Hand's speed-up with sort-first and 64 servers is printed as "

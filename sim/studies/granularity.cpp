@@ -129,6 +129,7 @@ Status granularity(StudyContext& context) {
     const auto of_64 = [&](Algorithm algorithm, const StudyModel& model) {
         return overhead(results, algorithm, model, 64);
     };
+    page.link("granularity.csv", "all columns of both modes");
     page.note(fmt::format(
         "The paper says that sort-last is unaffected by granularity. Here its groups are cut by the hybrid's "
         "sweep and depend on the objects too: with 64 servers its overhead is {:.0f} per cent with the "

@@ -59,6 +59,7 @@ Status resolution(StudyContext& context) {
     page.table(table, fmt::format("Pixel read and write at 2560x1920, how many times what they are at "
                                   "1280x960, and what becomes of the speed-ups, {}.",
                                   name));
+    page.link("resolution.csv", "all columns of both modes at 2560x1920");
     page.note(fmt::format(
         "With the root of the number of pixels the hybrid's exchange would be 2.0 times what it was; here it "
         "is {} times with {} servers and {} with {}. The root holds if objects keep their size in pixels, "

@@ -77,8 +77,7 @@ Result<SweepResult> run_sweep(const Scenario& scenario, const SweepOptions& opti
     }
     std::string table = to_csv({});
     for (const std::string& rows : journal.rows()) table += rows;
-    const std::span bytes(reinterpret_cast<const std::uint8_t*>(table.data()), table.size());
-    if (const auto status = write_file(result.table, bytes); !status) return tl::unexpected(status.error());
+    if (const auto status = write_file(result.table, table); !status) return tl::unexpected(status.error());
     return result;
 }
 

@@ -45,8 +45,7 @@ int main(int argc, char** argv) {
     std::cout << figures.to_text(name);
     if (!json.empty()) {
         const std::string text = figures.to_json();
-        const auto status =
-            write_file(json, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+        const auto status = write_file(json, text);
         if (!status) return run_error(status.error());
     }
     return kExitDone;

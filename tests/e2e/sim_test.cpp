@@ -158,8 +158,11 @@ TEST_F(Simulator, WhatCannotBeReadOrWrittenIsOneLineAndLeavesNoFile) {
     expect_one_line(sim(sweep + Arguments{file}), 1, {"--out", file});
     expect_one_line(sim(sweep + Arguments{file + "/below"}), 1, {"--out", file});
     expect_one_line(sim(sweep + Arguments{"/proc/swath"}), 1, {"--out", "/proc/swath"});
-    expect_one_line(sim({"run", "builtin:knot:300", "--timeline", files_.path_of("t.xls")}), 1,
+    expect_one_line(sim({"run", "builtin:knot:300", "--timeline", files_.path_of("t.xls")}), 2,
                     {"--timeline", ".csv", ".json"});
+    expect_one_line(
+        sim({"run", "builtin:knot:300", "--servers", "2,4", "--timeline", files_.path_of("t.csv")}), 2,
+        {"--timeline", "one number of servers"});
     EXPECT_EQ(contents(file), "kept");
 }
 

@@ -40,10 +40,12 @@ TEST(Page, EscapesWhatItIsGiven) {
     page.note("<b>");
     page.table({{"<th>"}, {{"<td>"}}}, "<caption>");
     page.figure({{"a\"b.png", "<alt>"}, {"c.png", "d"}}, "<fig>");
+    page.link("d\"e.csv", "<what>");
     const std::string html = page.html();
     EXPECT_THAT(html, HasSubstr("<title>&lt;title&gt; &amp; &quot;more&quot;</title>"));
     EXPECT_THAT(html, HasSubstr("src=\"a&quot;b.png\" alt=\"&lt;alt&gt;\""));
-    for (const char* raw : {"<script>", "a < b", "<b>", "><th>", "><td>", "<caption>", "<fig>"})
+    for (const char* raw :
+         {"<script>", "a < b", "<b>", "><th>", "><td>", "<caption>", "<fig>", "<what>", "d\"e"})
         EXPECT_THAT(html, Not(HasSubstr(raw)));
 }
 

@@ -90,7 +90,7 @@ TEST_F(Study, PutsThePapersFiguresBesideAModelOfThePaper) {
     ASSERT_TRUE(run_studies(options));
     const std::string html = text_of(options.out / "index.html");
     EXPECT_THAT(html, HasSubstr("(160.9)"));  // hybrid, 8 servers
-    EXPECT_THAT(html, HasSubstr("buddha is not here"));
+    EXPECT_THAT(html, HasSubstr("Buddha is not here"));
     EXPECT_THAT(html, HasSubstr("builtin:hand, a procedural model, stands in for it"));
     EXPECT_THAT(text_of(options.out / "table1.csv"), HasSubstr("\nhybrid,hand-stand-in,64,speedup,"));
 }
