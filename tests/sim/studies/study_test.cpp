@@ -72,7 +72,8 @@ TEST_F(Study, MakesAPageWhosePicturesAreAllThere) {
     for (std::sregex_iterator at(html.begin(), html.end(), source), end; at != end; ++at, ++pictures)
         EXPECT_TRUE(std::filesystem::exists(options.out / (*at)[1].str())) << (*at)[1];
     EXPECT_GE(pictures, 15u);
-    for (const char* section : {"Feasibility", "Scalability", "sort-first", "sort-last", "resolution", "granularity"})
+    for (const char* section :
+         {"Feasibility", "Scalability", "sort-first", "sort-last", "resolution", "granularity"})
         EXPECT_THAT(html, HasSubstr(section));
 }
 
@@ -146,10 +147,12 @@ TEST_F(StudyFlagsTest, NameStudiesModelsAndZooms) {
 }
 
 TEST_F(StudyFlagsTest, ThatAreWrongAreNamed) {
-    EXPECT_THAT(error_of({"feasability", "--out", "x"}), HasSubstr("'feasability' is not known; there are: feasibility"));
+    EXPECT_THAT(error_of({"feasability", "--out", "x"}),
+                HasSubstr("'feasability' is not known; there are: feasibility"));
     EXPECT_THAT(error_of({"all"}), HasSubstr("--out"));
     EXPECT_THAT(error_of({"--out", "x"}), HasSubstr("NAME"));
-    EXPECT_THAT(error_of({"all", "--out", "x", "--zoom", "dragon"}), HasSubstr("'dragon': expected MODEL=ZOOM"));
+    EXPECT_THAT(error_of({"all", "--out", "x", "--zoom", "dragon"}),
+                HasSubstr("'dragon': expected MODEL=ZOOM"));
     EXPECT_THAT(error_of({"all", "--out", "x", "--zoom", "dragon=nan"}), HasSubstr("expected MODEL=ZOOM"));
     EXPECT_THAT(error_of({"all", "--out", "x", "--model", "a=b", "--model", "a=c"}), HasSubstr("two models"));
     EXPECT_THAT(error_of({"all", "--out", "x", "--seeds", "0"}), HasSubstr("--seeds"));
