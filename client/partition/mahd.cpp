@@ -4,6 +4,8 @@
 #include <bit>
 #include <limits>
 
+#include "common/base/check.h"
+
 namespace swath {
 namespace {
 
@@ -42,6 +44,7 @@ Rect Mahd::first_region(const PartitionInput& input) {
     for (const ProjectedObject& object : input.objects) {
         if (object.work == 0) continue;
         const Rect cells = cells_of(object.box);
+        CHECK(!cells.empty());  // an object is at least one pixel
         const std::uint64_t share = (object.work << unit) / static_cast<std::uint64_t>(cells.area());
         const auto at = [&](int x, int y) -> std::uint64_t& {
             return sums_[static_cast<std::size_t>(x + 1) + static_cast<std::size_t>(y + 1) * stride_];

@@ -127,7 +127,8 @@ TEST(Hybrid, SendsAsManyPixelsAsThePaperSaysOnAverage) {
         for (const int root : {4, 8, 16}) {
             std::vector<ProjectedObject> squares;
             for (int i = 0; i < 60'000; ++i) {
-                const auto at = [&] { return static_cast<int>(random() % (kEdge - box + 1)); };
+                const auto places = static_cast<unsigned>(kEdge - box + 1);
+                const auto at = [&] { return static_cast<int>(random() % places); };
                 const int x = at();
                 const int y = at();
                 squares.push_back(seen({x, y, x + box, y + box}, 1));

@@ -12,6 +12,7 @@
 
 #include "common/base/check.h"
 #include "sim/plot/gnuplot.h"
+#include "tests/support/models.h"
 
 namespace swath::sim {
 namespace {
@@ -51,7 +52,8 @@ std::string bytes_of(const fs::path& file) {
 
 template <class Picture>
 Drawn drawn(const Picture& picture, const std::string& name = "picture") {
-    const fs::path stem = fs::path(testing::TempDir()) / "plot_test" / name;
+    const test::TemporaryFolder folder;
+    const fs::path stem = folder.path_of(name);
     const Status status = draw(picture, stem);
     EXPECT_TRUE(status) << status.error().message;
     return {bytes_of(stem.string() + ".svg"), bytes_of(stem.string() + ".png")};
@@ -128,8 +130,8 @@ TEST(Draw, WritesTheSameBytesAgain) {
 }
 
 TEST(Draw, ShowsHostileNamesAsTheyAre) {
-    const std::string witness = testing::TempDir() + "/plot_test/witness";
-    fs::remove(witness);
+    const test::TemporaryFolder folder;
+    const std::string witness = folder.path_of("witness");
     for (const std::string& name :
          {std::string("it's \"quoted\" `touch ") + witness + "`", "'; system('touch " + witness + "'); x='",
           "a\nEND\nset output '" + witness + "'", std::string("back\\slash\\"),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "sim/hardware/profile.h"
 #include "tests/support/models.h"
 
 namespace swath::sim {
@@ -33,7 +34,7 @@ std::string error_of(const ScenarioOptions& options) {
 
 std::vector<std::string> labels_of(const ScenarioOptions& options) {
     const auto scenario = Scenario::load(options);
-    EXPECT_TRUE(scenario) << scenario.error().message;
+    if (!scenario) return {scenario.error().message};
     std::vector<std::string> labels;
     for (const Experiment& e : scenario->experiments())
         labels.push_back(fmt::format("{}, {}, {}", e.model_name, e.algorithm_name, e.servers));
@@ -48,43 +49,13 @@ std::vector<std::string> settings_of(const ScenarioOptions& options) {
 
 class ScenarioFiles : public testing::Test {
   protected:
+    // The paper's profile with another price of a polygon.
     std::string profile(const std::string& name, const std::string& polygon) const {
-        const auto text = builtin_toml_;
-        auto changed = text;
-        const std::string before = "polygon = \"1.33 us/polygon\"";
-        changed.replace(changed.find(before), before.size(), "polygon = \"" + polygon + "\"");
-        return files_.write(name, changed);
+        std::string text(find_builtin("paper-2000")->toml);
+        const std::string_view before = "1.33 us/polygon";
+        return files_.write(name, text.replace(text.find(before), before.size(), polygon));
     }
     test::TemporaryFolder files_;
-
-  private:
-    const std::string builtin_toml_ = R"(about = "for tests"
-[network]
-latency = "20 us"
-bandwidth = "100 MB/s"
-swath = "8 B/pixel"
-tile = "4 B/pixel"
-active_share = 1
-tile_active_share = 1
-[client]
-transform = "3 us/object"
-[server]
-polygon = "1.33 us/polygon"
-fill = "300 Mpixel/s"
-culls = false
-compositing = "graphics"
-[server.colour]
-latency = "50 us"
-read = "20 Mpixel/s"
-write = "10 Mpixel/s"
-[server.depth]
-latency = "50 us"
-read = "20 Mpixel/s"
-write = "10 Mpixel/s"
-[display]
-latency = "50 us"
-write = "20 Mpixel/s"
-)";
 };
 
 TEST(Scenario, CombinesEverythingAndLabelsWhatThereIsSeveralOf) {

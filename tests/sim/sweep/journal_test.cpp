@@ -6,7 +6,6 @@
 namespace swath::sim {
 namespace {
 
-using testing::HasSubstr;
 using testing::StartsWith;
 
 const std::vector<Row> kLabels{
