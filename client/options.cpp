@@ -53,7 +53,8 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         app.add_option("--local", options.local, "start a display and this many servers on this machine [4]")
             ->check(CLI::Range(std::size_t{1}, kMaxLocalServers));
     auto* remote = app.add_option("--servers", servers, "HOST:PORT,... of running swath-server programs")
-                       ->delimiter(',');
+                       ->delimiter(',')
+                       ->allow_extra_args(false);  // MODEL may follow
     auto* remote_display = app.add_option("--display", display, "HOST:PORT of a running swath-display");
     auto* single =
         app.add_flag("--single", options.single, "render here, in one process: the reference picture");

@@ -53,12 +53,13 @@ std::size_t threads_or_all(std::size_t wanted) {
 void ScenarioFlags::add_to(CLI::App& app, bool many) {
     const std::string list = many ? "; several with commas between" : "";
     const auto values = [&](CLI::Option* option) {
-        option->delimiter(',');
+        option->delimiter(',')->allow_extra_args(false);
         if (!many) option->expected(1);
         return option;
     };
     if (many)
         app.add_option("--model", models_, "[NAME=]FILE or builtin:NAME, as swath-client takes; repeatable")
+            ->allow_extra_args(false)
             ->required();
     else
         app.add_option("MODEL", models_, "[NAME=]FILE or builtin:NAME, as swath-client takes")
@@ -67,9 +68,11 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
     app.add_option("--algorithm", algorithms_,
                    "how to divide a frame, several with commas between: " + algorithm_names())
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->capture_default_str();
     app.add_option("--servers", servers_, "how many, several with commas between")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->capture_default_str();
     values(app.add_option("--hardware", hardware_,
                           "a profile's name (see swath-sim hardware) or a FILE.toml" + list))

@@ -28,10 +28,12 @@ void StudyFlags::add_to(CLI::App& app) {
         ->required();
     app.add_option("--model", models_,
                    "NAME=FILE, repeatable: hand, dragon and buddha are shown beside the paper's figures and "
-                   "looked for in models/NAME.ply if they are not named; with other names only, those alone");
+                   "looked for in models/NAME.ply if they are not named; with other names only, those alone")
+        ->allow_extra_args(false);
     app.add_option("--zoom", zooms_,
                    "MODEL=ZOOM, repeatable [hand=1.25, dragon=1.06, buddha=1.33: what the paper's screen "
-                   "coverage suggests; others 1]");
+                   "coverage suggests; others 1]")
+        ->allow_extra_args(false);
     app.add_option("--hardware", options_.hardware,
                    "a profile's name (see swath-sim hardware) or a FILE.toml")
         ->capture_default_str();

@@ -58,6 +58,13 @@ TEST_F(BadPeer, UnknownHostIsNamed) {
                      1, {"no-such-host.invalid:4"});
 }
 
+TEST_F(BadPeer, ModelMayFollowTheListOfServers) {
+    const std::string nobody = closed_address();
+    expect_one_error(
+        client(Arguments{"--display", nobody, "--connect-s", "0.1", "--servers", nobody} + kModel), 1,
+        {nobody, "refused"});
+}
+
 TEST_F(BadPeer, TakenPortEndsTheProgramThatWantsIt) {
     const RawListener taken;
     for (const char* program : {"swath-server", "swath-display"}) {

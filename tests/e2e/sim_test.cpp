@@ -55,6 +55,12 @@ TEST_F(Simulator, HelpNamesEveryCommandAndFlag) {
         EXPECT_NE(sweep_help.find(word), sweep_help.npos) << word;
 }
 
+TEST_F(Simulator, TakesFlagsBeforeWhatTheyAreAbout) {
+    succeed({"run", "--servers", "2", "--algorithm", "hybrid", "builtin:knot:500", "--frames", "2"});
+    succeed({"study", "--model", "knot=builtin:knot:500", "--zoom", "knot=1", "scalability", "--frames", "2",
+             "--seeds", "1", "--quiet", "--out", files_.path_of("study")});
+}
+
 TEST_F(Simulator, ListsAndExplainsHardware) {
     EXPECT_NE(succeed({"hardware"}).out.find("paper-2000"), std::string::npos);
     const std::string explained = succeed({"hardware", "paper-2000"}).out;
