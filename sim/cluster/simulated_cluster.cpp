@@ -59,7 +59,7 @@ class Cluster {
     struct Frame {
         Nanoseconds begin{0};
         std::vector<ServerWork> work;
-        FrameTimeline timeline;
+        double overlap_factor = 1;
         MachineTimeline client;
         MachineTimeline display;
         std::size_t reports_missing = 0;
@@ -97,6 +97,7 @@ class Cluster {
         const FramePlan plan = partitioner_->partition({number, view, objects, scenario_.servers});
         Frame& frame = frames_[number];
         frame.work = frame_work(plan, objects, scenario_.hardware);
+        frame.overlap_factor = overlap_of(plan);
         singles_s_.push_back(drawing_s(objects));
         const double time_s =
             client_s(objects.size(), scenario_.servers, scenario_.algorithm, scenario_.hardware);
@@ -106,6 +107,16 @@ class Cluster {
             issued.client.spans.push_back({Phase::kPartition, begin, end, end - begin});
             send_tasks(number);
         });
+    }
+
+    // Triangles assigned over triangles of the model, as the cluster reports it.
+    double overlap_of(const FramePlan& plan) const {
+        double model = 0;
+        double assigned = 0;
+        for (const Object& object : scenario_.objects) model += object.triangle_count;
+        for (const ServerShare& share : plan.servers)
+            for (const ObjectId id : share.group) assigned += scenario_.objects[id].triangle_count;
+        return model > 0 ? assigned / model : 1;
     }
 
     // What one server that draws all of it takes.
@@ -132,9 +143,8 @@ class Cluster {
                  [this, number, s] { servers_[s]->on_task(number, frames_.at(number).work[s]); });
         }
         const double bytes = kReportBytes + kAssembleBytesPerServer * static_cast<double>(tiles.size());
-        send(kClient, display_host(), bytes, [this, number, tiles = std::move(tiles)] {
-            follow(number, decided(assembly_.on_task(number, tiles)));
-        });
+        send(kClient, display_host(), bytes,
+             [this, number, tiles = std::move(tiles)] { follow(decided(assembly_.on_task(number, tiles))); });
         frame.reports_missing = working + 1;
         director_.on_issued(number, working);
     }
@@ -148,7 +158,7 @@ class Cluster {
 
     void send_tile(FrameNumber number, ServerId from) {
         send(host(from), display_host(), frames_.at(number).work[index(from)].tile_bytes,
-             [this, number, from] { follow(number, decided(assembly_.on_tile(number, from))); });
+             [this, number, from] { follow(decided(assembly_.on_tile(number, from))); });
     }
 
     void send_report(FrameNumber number, ServerId from) {
@@ -159,7 +169,7 @@ class Cluster {
         });
     }
 
-    void follow(FrameNumber, const Assembly::Actions& actions) {
+    void follow(const Assembly::Actions& actions) {
         for (const AssemblyAction& action : actions) {
             const FrameNumber number = action.frame;
             if (action.kind == AssemblyAction::Kind::kMerge) {
@@ -191,6 +201,7 @@ class Cluster {
         if (scenario_.keep_timelines) {
             FrameTimeline timeline;
             timeline.frame = number;
+            timeline.overlap_factor = frame.overlap_factor;
             frame.client.machine = "client";
             frame.display.machine = "display";
             timeline.machines.push_back(std::move(frame.client));

@@ -51,7 +51,6 @@ void FullMeans::add(const ClusterRunCosts& run) {
     one.latency_s_ = run.latency_s;
     one.single_s_ = run.single_s;
     one.use_ = run.use;
-    one.events_ = run.events;
     add(one);
 }
 
@@ -61,7 +60,6 @@ void FullMeans::add(const FullMeans& other) {
     frame_s_ += other.frame_s_;
     latency_s_ += other.latency_s_;
     single_s_ += other.single_s_;
-    events_ += other.events_;
     if (use_.empty()) {
         use_ = other.use_;
         return;

@@ -44,7 +44,6 @@ class FullMeans {
     double speedup() const { return frame_s_ > 0 ? single_s_ / frame_s_ : 0; }
     std::vector<ResourceUse> use() const;
     ResourceUse bottleneck() const;  // the busiest
-    std::uint64_t events() const { return events_; }
 
     // full_frame and full_latency in ms, full_speedup, and busy_RESOURCE in per cent.
     std::vector<Row> rows(const Row& of) const;
@@ -55,7 +54,6 @@ class FullMeans {
     double latency_s_ = 0;
     double single_s_ = 0;
     std::vector<ResourceUse> use_;  // sums
-    std::uint64_t events_ = 0;
 };
 
 struct Outcome {

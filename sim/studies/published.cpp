@@ -1,7 +1,5 @@
 #include "sim/studies/published.h"
 
-#include <algorithm>
-
 #include "common/base/check.h"
 #include "sim/studies/published_text.h"
 

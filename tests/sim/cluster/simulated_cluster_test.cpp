@@ -186,6 +186,18 @@ TEST(SimulatedCluster, ShowsBackgroundWhereNothingIsVisible) {
     EXPECT_EQ(costs.single_s, 0);
 }
 
+TEST(SimulatedCluster, ReportsHowOftenTrianglesAreDrawn) {
+    // In the middle of the screen, where two tiles meet.
+    const std::vector<Object> objects{cube({0, 0, 0}, 0.3f, 50)};
+    const std::vector<Camera> cameras(1, front_camera());
+    const Hardware hardware = free_hardware();
+    for (const auto& [algorithm, factor] : {std::pair{Algorithm::kHybrid, 1.0}, {Algorithm::kKdSplit, 2.0}}) {
+        ClusterScenario scenario = scenario_of(objects, cameras, hardware, 2, 1, algorithm);
+        scenario.keep_timelines = true;
+        EXPECT_EQ(simulate(scenario).timelines.at(0).overlap_factor, factor) << name_of(algorithm);
+    }
+}
+
 TEST(Busiest, IsTheFirstOfEquals) {
     const std::vector<ResourceUse> use{{"a", 0.1}, {"b", 0.7}, {"c", 0.7}};
     EXPECT_EQ(busiest(use).resource, "b");
