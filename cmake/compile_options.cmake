@@ -28,6 +28,30 @@ function(swath_library name)
   target_link_libraries(${name} PUBLIC swath_options)
 endfunction()
 
+# swath_kernel(LIBRARY SOURCE [INSTRUCTION_SET...]): adds SOURCE to LIBRARY, compiled once for every processor
+# (namespace `portable`) and once more for each instruction set named (`avx2`, `avx512`; on x86-64 only).
+# SWATH_KERNEL is defined as that namespace. Such a source may include only headers without inline functions of
+# linkage (no containers, no glm): the linker could give everybody the copy that few processors can run.
+# common/base/instruction_set.h says at run time which one to call.
+function(swath_kernel library source)
+  set(flags_portable "")
+  set(flags_avx2 -mavx2 -mfma -mbmi -mbmi2)
+  set(flags_avx512 ${flags_avx2} -mavx512f -mavx512dq -mavx512bw -mavx512vl -mprefer-vector-width=512)
+  set(sets portable)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+    list(APPEND sets ${ARGN})
+  endif()
+  get_filename_component(stem ${source} NAME_WE)
+  foreach(set IN LISTS sets)
+    set(objects ${library}_${stem}_${set})
+    add_library(${objects} OBJECT ${source})
+    target_link_libraries(${objects} PRIVATE swath_options)
+    target_compile_definitions(${objects} PRIVATE SWATH_KERNEL=${set} SWATH_KERNEL_${set})
+    target_compile_options(${objects} PRIVATE ${flags_${set}})
+    target_sources(${library} PRIVATE $<TARGET_OBJECTS:${objects}>)
+  endforeach()
+endfunction()
+
 # swath_test(NAME LABEL SOURCES...): a GoogleTest program; every TEST becomes a ctest test with LABEL.
 include(GoogleTest)
 function(swath_test name label)

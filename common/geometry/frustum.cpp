@@ -91,6 +91,22 @@ Frustum make_frustum(const View& view) {
              rows[3] - rows[2]}};
 }
 
+Frustum make_frustum(const View& view, const Rect& rect, const Box& within) {
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(view.clip_from_model));
+    const glm::dvec3 reach = glm::max(glm::abs(glm::dvec3(within.min)), glm::abs(glm::dvec3(within.max)));
+    // sign * (row - limit * w) >= 0, and a little beyond.
+    const auto plane = [&](glm::length_t row, double limit, double sign) {
+        glm::dvec4 p = sign * (rows[row] - limit * rows[3]);
+        const glm::dvec4 terms = glm::abs(rows[row]) + std::abs(limit) * glm::abs(rows[3]);
+        p.w += kFloatLoss * glm::dot(terms, glm::dvec4(reach, 1.0));
+        return glm::vec4(p);
+    };
+    const auto ndc = [](int pixel, int pixels) { return 2.0 * pixel / pixels - 1.0; };
+    return {{plane(0, ndc(rect.x0 - 1, view.width), 1), plane(0, ndc(rect.x1 + 1, view.width), -1),
+             plane(1, ndc(rect.y0 - 1, view.height), 1), plane(1, ndc(rect.y1 + 1, view.height), -1),
+             plane(2, -1.0, 1), plane(2, 1.0, -1)}};
+}
+
 Rect screen_bounds(const Box& box, const View& view) { return ScreenBounds(view).of(box); }
 
 ScreenBounds::ScreenBounds(const View& view)

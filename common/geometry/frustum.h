@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <glm/glm.hpp>
 
 #include "common/geometry/box.h"
@@ -15,16 +16,33 @@ struct Frustum {
 
 Frustum make_frustum(const View& view);
 
-// The ONE plane expression that every cull test uses: how far the box's farthest corner along the plane's
-// normal (its p-vertex) lies inside; negative means that the whole box is outside this plane.
-inline float p_vertex_distance(const glm::vec4& plane, const Box& box) {
-    const float x = plane.x >= 0 ? box.max.x : box.min.x;
-    const float y = plane.y >= 0 ? box.max.y : box.min.y;
-    const float z = plane.z >= 0 ? box.max.z : box.min.z;
-    return plane.x * x + plane.y * y + plane.z * z + plane.w;
+// The frustum of the pixels `rect` of a view, moved outwards by a pixel and by what single precision may lose
+// anywhere in `within`: a box inside of `within` that is outside of this frustum covers no pixel centre of
+// `rect` in any renderer of single precision.
+Frustum make_frustum(const View& view, const Rect& rect, const Box& within);
+
+// The ONE plane expression that every cull test uses, scalar or vector: the signed distance, times the
+// normal's length. Each step is fused and rounded once, so it is monotone in every coordinate, which makes
+// hierarchies exact: what a parent's box fails, no child's box passes, and what it passes, no child fails.
+inline float plane_distance(const glm::vec4& plane, float x, float y, float z) {
+    return std::fma(plane.x, x, std::fma(plane.y, y, std::fma(plane.z, z, plane.w)));
 }
 
-// True if the box certainly has nothing in the frustum (conservative: a few boxes near an edge stay).
+// Of the box's farthest corner along the plane's normal (its p-vertex): negative means that the whole box is
+// outside this plane.
+inline float p_vertex_distance(const glm::vec4& plane, const Box& box) {
+    return plane_distance(plane, plane.x >= 0 ? box.max.x : box.min.x, plane.y >= 0 ? box.max.y : box.min.y,
+                          plane.z >= 0 ? box.max.z : box.min.z);
+}
+
+// Of the nearest corner (its n-vertex): not negative means that the whole box is inside this plane.
+inline float n_vertex_distance(const glm::vec4& plane, const Box& box) {
+    return plane_distance(plane, plane.x >= 0 ? box.min.x : box.max.x, plane.y >= 0 ? box.min.y : box.max.y,
+                          plane.z >= 0 ? box.min.z : box.max.z);
+}
+
+// True if the box certainly has nothing in the frustum (conservative: a few boxes near an edge stay). A plane
+// that is not a number drops nothing.
 inline bool outside(const Frustum& frustum, const Box& box) {
     for (const glm::vec4& plane : frustum.planes)
         if (p_vertex_distance(plane, box) < 0) return true;

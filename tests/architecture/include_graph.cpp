@@ -24,6 +24,8 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     {"common/image", {"common/base", "common/geometry"}},
     {"common/timeline", {"common/base"}},
     {"common/cull", {"common/base", "common/geometry", "common/scene", "common/octree"}},
+    // Cull and sort together, so it may cull; it knows nothing of meshes.
+    {"common/resource", {"common/base", "common/geometry", "common/cull"}},
     {"common/render", {"common/base", "common/geometry", "common/scene", "common/image"}},
     // What travels are the values of the layers below.
     {"common/wire",

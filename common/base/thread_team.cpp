@@ -1,0 +1,104 @@
+#include "common/base/thread_team.h"
+
+#include <utility>
+
+#include "common/base/check.h"
+
+namespace swath {
+namespace {
+
+// A wait that ends soon should not pay for a system call, and one that does not should leave the core to
+// others. Spinning alone lost up to four times when there were more threads than cores, sleeping at once
+// cost milliseconds a frame on a busy machine.
+constexpr int kSpins = 200;
+constexpr int kYields = 50;
+
+void pause() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+}
+
+// Returns the first value of `state` that is not `while_is`.
+std::uint32_t await_change(const std::atomic<std::uint32_t>& state, std::uint32_t while_is) {
+    for (int i = 0; i < kSpins + kYields; ++i) {
+        if (const std::uint32_t now = state.load(std::memory_order_acquire); now != while_is) return now;
+        if (i < kSpins)
+            pause();
+        else
+            std::this_thread::yield();
+    }
+    state.wait(while_is, std::memory_order_acquire);
+    return state.load(std::memory_order_acquire);
+}
+
+}  // namespace
+
+ThreadTeam::ThreadTeam(std::size_t size, const Clock& clock) : clock_(clock) {
+    CHECK(size >= std::size_t{1});
+    for (std::size_t i = 0; i < size; ++i) members_.push_back(std::make_unique<Member>());
+    for (std::size_t i = 1; i < size; ++i)
+        members_[i]->thread = std::thread([this, &member = *members_[i]] { live(member); });
+}
+
+ThreadTeam::~ThreadTeam() {
+    for (const auto& member : members_) {
+        if (!member->thread.joinable()) continue;
+        member->state.store(kStopped, std::memory_order_release);
+        member->state.notify_all();
+        member->thread.join();
+    }
+}
+
+void ThreadTeam::live(Member& member) {
+    for (;;) {
+        switch (await_change(member.state, kIdle)) {
+            case kStopped:
+                return;
+            case kStarted:
+                take(member);
+                break;
+            default:  // the caller took it back and is doing it
+                await_change(member.state, kRunning);
+        }
+    }
+}
+
+bool ThreadTeam::take(Member& member) {
+    std::uint32_t expected = kStarted;
+    if (!member.state.compare_exchange_strong(expected, kRunning, std::memory_order_acq_rel)) return false;
+    member.begin = clock_.now();
+    member.task();
+    member.end = clock_.now();
+    member.state.store(kIdle, std::memory_order_release);
+    member.state.notify_all();
+    return true;
+}
+
+void ThreadTeam::set_task(std::size_t member, std::function<void()> task) {
+    CHECK(member < size());
+    CHECK(members_[member]->state.load(std::memory_order_acquire) == kIdle);
+    members_[member]->task = std::move(task);
+}
+
+void ThreadTeam::start(std::size_t member) {
+    CHECK(member < size());
+    CHECK(static_cast<bool>(members_[member]->task));
+    members_[member]->state.store(kStarted, std::memory_order_release);
+    if (member != 0) members_[member]->state.notify_all();
+}
+
+void ThreadTeam::wait() {
+    for (const auto& member : members_) take(*member);
+    for (const auto& member : members_) await_change(member->state, kRunning);
+}
+
+void ThreadTeam::run(const std::function<void(std::size_t member)>& task) {
+    for (std::size_t i = size(); i-- > 0;) {
+        members_[i]->task = [&task, i] { task(i); };
+        start(i);
+    }
+    wait();
+}
+
+}  // namespace swath

@@ -1,0 +1,77 @@
+#include "common/cull/culler.h"
+
+#include <array>
+#include <numeric>
+#include <vector>
+
+#include "common/base/check.h"
+
+namespace swath {
+namespace {
+
+constexpr std::array kAlgorithms{CullAlgorithm::kWide, CullAlgorithm::kA2ssb, CullAlgorithm::kAdsb,
+                                 CullAlgorithm::kNone};
+
+class NoCuller final : public Culler {
+  public:
+    explicit NoCuller(std::size_t boxes) : all_(boxes) { std::iota(all_.begin(), all_.end(), 0u); }
+    std::span<const std::uint32_t> cull(const Frustum& /*frustum*/) override { return all_; }
+
+  private:
+    std::vector<std::uint32_t> all_;
+};
+
+class LoopCuller final : public Culler {
+  public:
+    explicit LoopCuller(std::span<const Box> boxes) : boxes_(boxes.begin(), boxes.end()) {}
+    std::span<const std::uint32_t> cull(const Frustum& frustum) override {
+        visible_.clear();
+        for (std::size_t i = 0; i < boxes_.size(); ++i)
+            if (!outside(frustum, boxes_[i])) visible_.push_back(static_cast<std::uint32_t>(i));
+        return visible_;
+    }
+
+  private:
+    std::vector<Box> boxes_;
+    std::vector<std::uint32_t> visible_;
+};
+
+}  // namespace
+
+std::string_view name_of(CullAlgorithm algorithm) {
+    switch (algorithm) {
+        case CullAlgorithm::kWide:
+            return "wide";
+        case CullAlgorithm::kA2ssb:
+            return "a2ssb";
+        case CullAlgorithm::kAdsb:
+            return "adsb";
+        case CullAlgorithm::kNone:
+            return "none";
+    }
+    CHECK(false);
+    return {};
+}
+
+std::string cull_algorithm_names() {
+    std::string names;
+    for (const CullAlgorithm algorithm : kAlgorithms) {
+        if (!names.empty()) names += ", ";
+        names += name_of(algorithm);
+    }
+    return names;
+}
+
+Result<CullAlgorithm> parse_cull_algorithm(std::string_view name) {
+    for (const CullAlgorithm algorithm : kAlgorithms)
+        if (name_of(algorithm) == name) return algorithm;
+    return fail("culling '{}' is not known; there are: {}", name, cull_algorithm_names());
+}
+
+std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box> boxes,
+                                    ThreadTeam& /*team*/) {
+    if (algorithm == CullAlgorithm::kNone) return std::make_unique<NoCuller>(boxes.size());
+    return std::make_unique<LoopCuller>(boxes);
+}
+
+}  // namespace swath
