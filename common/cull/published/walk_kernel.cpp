@@ -1,0 +1,199 @@
+// The loops of the published algorithms, once per instruction set: see swath_kernel in
+// cmake/compile_options.cmake for what may be included here.
+#include "common/cull/published/walk_table.h"
+
+namespace swath::SWATH_KERNEL {
+namespace {
+
+// Four floats at once: a box's corner. The fourth is idle.
+using Corner [[gnu::vector_size(16)]] = float;
+using UnalignedCorner [[gnu::vector_size(16), gnu::aligned(4)]] = float;
+
+// Bit for bit outside() of common/geometry/frustum.h, the one plane expression.
+inline bool is_outside(const WalkPlanes& planes, const float* box) {
+    for (const WalkPlane& p : planes.plane) {
+        const float z = __builtin_fmaf(p.z, box[p.at_z], p.w);
+        if (__builtin_fmaf(p.x, box[p.at_x], __builtin_fmaf(p.y, box[p.at_y], z)) < 0) return true;
+    }
+    return false;
+}
+
+inline void push(WalkList<std::uint32_t>& list, std::uint32_t value) {
+    if (list.size == list.capacity) grow(list);
+    list.at[list.size++] = value;
+}
+
+inline const OctreeNode& node_at(StoredNode node) { return *node; }
+inline const ComputedNode& node_at(const ComputedNode& node) { return node; }
+
+inline StoredNode child_of(StoredNode node, std::uint32_t child) { return node->children[child]; }
+
+// Exact: coordinates are whole numbers below 2^11 (uniform_octree.h).
+inline ComputedNode child_of(const ComputedNode& node, std::uint32_t child) {
+    const float edge = 0.5f * (node.box[3] - node.box[0]);
+    const float x = node.box[0] + ((child & 1) != 0 ? edge : 0.0f);
+    const float y = node.box[1] + ((child & 4) != 0 ? edge : 0.0f);
+    const float z = node.box[2] + ((child & 2) != 0 ? edge : 0.0f);
+    return {{x, y, z, x + edge, y + edge, z + edge}, 8 * node.code + child, node.level + 1};
+}
+
+template <class Node>
+void step_one_from(MemberWalk& walk, const Node& node, std::uint32_t split_level, WalkList<Node>& below) {
+    ++walk.tested;
+    if (is_outside(*walk.planes, node_at(node).box)) return;
+    const std::uint32_t level = node_at(node).level;
+    if (level == walk.last_level) {
+        push(walk.leaves, node_at(node).code);
+        return;
+    }
+    if (level == split_level) {
+        if (below.capacity - below.size < 8) grow(below);
+        for (std::uint32_t child = 0; child < 8; ++child) below.at[below.size++] = child_of(node, child);
+        return;
+    }
+    for (std::uint32_t child = 0; child < 8; ++child)
+        step_one_from(walk, child_of(node, child), split_level, below);
+}
+
+template <class Node>
+void step_one(MemberWalk& walk, const Node* nodes, std::size_t count, std::uint32_t split_level,
+              WalkList<Node>& below) {
+    for (std::size_t i = 0; i < count; ++i) step_one_from(walk, nodes[i], split_level, below);
+}
+
+// Figure 3.8: how to move from child 0 to 1, 1 to 2 and so on, in edges along x, y, z. The rows there are
+// numbered by where they lead, so row `child_id` here leads away from it.
+constexpr Corner kTranslation[7] = {{1, 0, 0, 0}, {-1, 0, 1, 0}, {1, 0, 0, 0}, {-1, 1, -1, 0},
+                                    {1, 0, 0, 0}, {-1, 0, 1, 0}, {1, 0, 0, 0}};
+
+// The box that moves. Vectors to calculate with, and six numbers in memory for the plane test.
+struct MovingBox {
+    Corner low;
+    Corner high;
+    float box[7];
+
+    void store() {
+        *reinterpret_cast<UnalignedCorner*>(box) = low;
+        *reinterpret_cast<UnalignedCorner*>(box + 3) = high;  // over the fourth of `low`
+    }
+};
+
+void in_place_from(MemberWalk& walk, const float* box, std::uint32_t code, std::uint32_t level) {
+    constexpr signed char kNobodysChild = -1;
+    signed char child_stack[16];
+    MovingBox at{{box[0], box[1], box[2], 0}, {box[3], box[4], box[5], 0}, {}};
+    at.store();
+    const WalkPlanes& planes = *walk.planes;
+    const std::uint32_t last_level = walk.last_level;
+    std::uint64_t tested = 0;
+    signed char child_id = kNobodysChild;
+    child_stack[level] = child_id;
+    for (;;) {
+        while (++tested, !is_outside(planes, at.box)) {
+            if (level == last_level) {
+                push(walk.leaves, code);
+                break;
+            }
+            at.high = (at.low + at.high) * 0.5f;  // the first child: equation 2
+            at.store();
+            child_id = 0;
+            child_stack[++level] = child_id;
+            code <<= 3;
+        }
+        while (child_id == 7) {
+            at.low -= at.high - at.low;  // the father: equation 3
+            child_id = child_stack[--level];
+            code >>= 3;
+        }
+        if (child_id == kNobodysChild) break;
+        const Corner delta = (at.high - at.low) * kTranslation[child_id];  // the brother: equation 8
+        at.low += delta;
+        at.high += delta;
+        at.store();
+        child_stack[level] = ++child_id;
+        ++code;
+    }
+    walk.tested += tested;
+}
+
+template <class Node>
+void in_place(MemberWalk& walk, const Node* nodes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto& node = node_at(nodes[i]);
+        in_place_from(walk, node.box, node.code, node.level);
+    }
+}
+
+template <class Node>
+void depth_first_from(MemberWalk& walk, const Node& node) {
+    ++walk.tested;
+    if (is_outside(*walk.planes, node_at(node).box)) return;
+    if (node_at(node).level == walk.last_level) {
+        push(walk.leaves, node_at(node).code);
+        return;
+    }
+    for (std::uint32_t child = 0; child < 8; ++child) depth_first_from(walk, child_of(node, child));
+}
+
+template <class Node>
+void depth_first(MemberWalk& walk, const Node* nodes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) depth_first_from(walk, nodes[i]);
+}
+
+template <class Node>
+void render_nodes(MemberWalk& walk, std::uint64_t budget, WalkQueue<Node>& queue) {
+    std::uint64_t tested = 0;
+    while (queue.head != queue.tail) {
+        const Node node = queue.at[queue.head++ & (queue.capacity - 1)];
+        ++tested;
+        if (!is_outside(*walk.planes, node_at(node).box)) {
+            if (node_at(node).level == walk.last_level) {
+                push(walk.leaves, node_at(node).code);
+            } else {
+                if (queue.capacity - (queue.tail - queue.head) < 8) grow(queue);
+                for (std::uint32_t child = 0; child < 8; ++child)
+                    queue.at[queue.tail++ & (queue.capacity - 1)] = child_of(node, child);
+            }
+        }
+        if (tested == budget) break;
+    }
+    walk.tested += tested;
+}
+
+template <class Node>
+NodeWalks<Node> node_walks() {
+    return {&step_one<Node>, &in_place<Node>, &depth_first<Node>, &render_nodes<Node>};
+}
+
+void cull_boxes(const WalkPlanes& planes, const CellBoxes& of, std::size_t first, std::size_t last,
+                WalkList<std::uint32_t>& ids) {
+    for (std::size_t i = first; i < last; ++i)
+        if (!is_outside(planes, of.boxes[i])) push(ids, of.ids[i]);
+}
+
+void cull_cells(const WalkPlanes& planes, const CellBoxes& of, const std::uint32_t* cells, std::size_t count,
+                WalkList<std::uint32_t>& ids) {
+    for (std::size_t i = 0; i < count; ++i)
+        cull_boxes(planes, of, of.first[cells[i]], of.first[cells[i] + 1], ids);
+}
+
+void cull_tree(const WalkPlanes& planes, const CellBoxes& of, const BoxNode& node,
+               WalkList<std::uint32_t>& ids) {
+    if (is_outside(planes, node.box)) return;
+    if (node.count != 0) {
+        cull_boxes(planes, of, node.first, node.first + node.count, ids);
+        return;
+    }
+    for (const BoxNode* child : node.children) {
+        if (child == nullptr) return;
+        cull_tree(planes, of, *child, ids);
+    }
+}
+
+}  // namespace
+
+WalkTable walk_table() {
+    return {node_walks<StoredNode>(), node_walks<ComputedNode>(), &cull_cells, &cull_boxes, &cull_tree};
+}
+
+}  // namespace swath::SWATH_KERNEL
