@@ -162,7 +162,7 @@ NodeWalks<Node> node_walks() {
 void cull_boxes(const WalkPlanes& planes, const CellBoxes& of, std::size_t first, std::size_t last,
                 WalkList<std::uint32_t>& ids) {
     for (std::size_t i = first; i < last; ++i)
-        if (!is_outside(planes, of.boxes[i])) push(ids, of.ids[i]);
+        if (!is_outside(planes, of.boxes[i].numbers)) push(ids, of.ids[i]);
 }
 
 void cull_cells(const WalkPlanes& planes, const CellBoxes& of, const std::uint32_t* cells, std::size_t count,

@@ -73,10 +73,14 @@ struct NodeWalks {
     void (*render_nodes)(MemberWalk& walk, std::uint64_t budget, WalkQueue<Node>& queue);
 };
 
+struct WalkBox {
+    float numbers[6];  // min x, y, z, max x, y, z
+};
+
 // Boxes sorted by cell: those of cell c are `first[c]` to `first[c + 1]`.
 struct CellBoxes {
     const std::uint32_t* first;
-    const float (*boxes)[6];
+    const WalkBox* boxes;
     const std::uint32_t* ids;
 };
 

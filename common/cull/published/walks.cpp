@@ -61,6 +61,10 @@ WalkPlanes walk_planes(const Frustum& frustum) {
     return planes;
 }
 
+WalkBox walk_box(const Box& box) {
+    return {{box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z}};
+}
+
 ComputedNode computed_node(const UniformOctree& tree, int level, std::uint32_t code) {
     const Box box = tree.box_of(level, code);
     return {{box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z},

@@ -21,7 +21,7 @@ TEST(WalkTable, TestsABoxAsTheOnePlaneExpressionDoesInEveryInstructionSet) {
         for (std::size_t i = 0; i < 2; ++i) frustum.planes[i] = {number(), number(), number(), number()};
         if (round % 5 == 0) frustum.planes[0].x = -0.0f;
         if (round % 7 == 0) frustum.planes[1].y = std::numeric_limits<float>::quiet_NaN();
-        std::vector<std::array<float, 6>> boxes;
+        std::vector<WalkBox> boxes;
         std::vector<std::uint32_t> ids;
         std::vector<std::uint32_t> expected;
         for (std::uint32_t id = 0; id < 200; ++id) {
@@ -32,11 +32,11 @@ TEST(WalkTable, TestsABoxAsTheOnePlaneExpressionDoesInEveryInstructionSet) {
             if (id % 3 == 0) box.extend(glm::vec3(number(), number(), number()));
             if (id % 50 == 0) box.min.x = -kInfinity;
             if (id % 60 == 0) box = Box{};
-            boxes.push_back({box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z});
+            boxes.push_back(walk_box(box));
             ids.push_back(1000 + id);
             if (!outside(frustum, box)) expected.push_back(1000 + id);
         }
-        const CellBoxes of{nullptr, reinterpret_cast<const float(*)[6]>(boxes.data()), ids.data()};
+        const CellBoxes of{nullptr, boxes.data(), ids.data()};
         for (const InstructionSet set : instruction_sets()) {
             OwnedList<WalkList<std::uint32_t>> visible;
             walk_table(set).cull_boxes(walk_planes(frustum), of, 0, boxes.size(), *visible);
