@@ -5,17 +5,24 @@
 namespace swath::SWATH_KERNEL {
 namespace {
 
-// Four floats at once: a box's corner. The fourth is idle.
-using Corner [[gnu::vector_size(16)]] = float;
-using UnalignedCorner [[gnu::vector_size(16), gnu::aligned(4)]] = float;
+struct Corners {
+    float low[3];
+    float high[3];
+};
 
-// Bit for bit outside() of common/geometry/frustum.h, the one plane expression.
-inline bool is_outside(const WalkPlanes& planes, const float* box) {
+// Bit for bit outside() of common/geometry/frustum.h: the one plane expression.
+inline bool is_outside(const WalkPlanes& planes, const Corners& box) {
     for (const WalkPlane& p : planes.plane) {
-        const float z = __builtin_fmaf(p.z, box[p.at_z], p.w);
-        if (__builtin_fmaf(p.x, box[p.at_x], __builtin_fmaf(p.y, box[p.at_y], z)) < 0) return true;
+        const float x = p.up_x ? box.high[0] : box.low[0];
+        const float y = p.up_y ? box.high[1] : box.low[1];
+        const float z = p.up_z ? box.high[2] : box.low[2];
+        if (__builtin_fmaf(p.x, x, __builtin_fmaf(p.y, y, __builtin_fmaf(p.z, z, p.w))) < 0) return true;
     }
     return false;
+}
+
+inline bool is_outside(const WalkPlanes& planes, const float* box) {
+    return is_outside(planes, Corners{{box[0], box[1], box[2]}, {box[3], box[4], box[5]}});
 }
 
 inline void push(WalkList<std::uint32_t>& list, std::uint32_t value) {
@@ -63,53 +70,40 @@ void step_one(MemberWalk& walk, const Node* nodes, std::size_t count, std::uint3
 
 // Figure 3.8: how to move from child 0 to 1, 1 to 2 and so on, in edges along x, y, z. The rows there are
 // numbered by where they lead, so row `child_id` here leads away from it.
-constexpr Corner kTranslation[7] = {{1, 0, 0, 0}, {-1, 0, 1, 0}, {1, 0, 0, 0}, {-1, 1, -1, 0},
-                                    {1, 0, 0, 0}, {-1, 0, 1, 0}, {1, 0, 0, 0}};
+constexpr float kTranslation[7][3] = {{1, 0, 0}, {-1, 0, 1}, {1, 0, 0}, {-1, 1, -1},
+                                      {1, 0, 0}, {-1, 0, 1}, {1, 0, 0}};
 
-// The box that moves. Vectors to calculate with, and six numbers in memory for the plane test.
-struct MovingBox {
-    Corner low;
-    Corner high;
-    float box[7];
-
-    void store() {
-        *reinterpret_cast<UnalignedCorner*>(box) = low;
-        *reinterpret_cast<UnalignedCorner*>(box + 3) = high;  // over the fourth of `low`
-    }
-};
-
-void in_place_from(MemberWalk& walk, const float* box, std::uint32_t code, std::uint32_t level) {
+void in_place_from(MemberWalk& walk, const float* from, std::uint32_t code, std::uint32_t level) {
     constexpr signed char kNobodysChild = -1;
     signed char child_stack[16];
-    MovingBox at{{box[0], box[1], box[2], 0}, {box[3], box[4], box[5], 0}, {}};
-    at.store();
+    Corners box{{from[0], from[1], from[2]}, {from[3], from[4], from[5]}};
     const WalkPlanes& planes = *walk.planes;
     const std::uint32_t last_level = walk.last_level;
     std::uint64_t tested = 0;
     signed char child_id = kNobodysChild;
     child_stack[level] = child_id;
     for (;;) {
-        while (++tested, !is_outside(planes, at.box)) {
+        while (++tested, !is_outside(planes, box)) {
             if (level == last_level) {
                 push(walk.leaves, code);
                 break;
             }
-            at.high = (at.low + at.high) * 0.5f;  // the first child: equation 2
-            at.store();
+            for (int i = 0; i < 3; ++i) box.high[i] = (box.low[i] + box.high[i]) * 0.5f;  // equation 2
             child_id = 0;
             child_stack[++level] = child_id;
             code <<= 3;
         }
         while (child_id == 7) {
-            at.low -= at.high - at.low;  // the father: equation 3
+            for (int i = 0; i < 3; ++i) box.low[i] -= box.high[i] - box.low[i];  // equation 3
             child_id = child_stack[--level];
             code >>= 3;
         }
         if (child_id == kNobodysChild) break;
-        const Corner delta = (at.high - at.low) * kTranslation[child_id];  // the brother: equation 8
-        at.low += delta;
-        at.high += delta;
-        at.store();
+        for (int i = 0; i < 3; ++i) {  // equations 6 to 8
+            const float delta = (box.high[i] - box.low[i]) * kTranslation[child_id][i];
+            box.low[i] += delta;
+            box.high[i] += delta;
+        }
         child_stack[level] = ++child_id;
         ++code;
     }
@@ -168,7 +162,7 @@ NodeWalks<Node> node_walks() {
 void cull_boxes(const WalkPlanes& planes, const CellBoxes& of, std::size_t first, std::size_t last,
                 WalkList<std::uint32_t>& ids) {
     for (std::size_t i = first; i < last; ++i)
-        if (!is_outside(planes, of.boxes[i])) push(ids, of.ids[i]);
+        if (!is_outside(planes, of.boxes[i].numbers)) push(ids, of.ids[i]);
 }
 
 void cull_cells(const WalkPlanes& planes, const CellBoxes& of, const std::uint32_t* cells, std::size_t count,

@@ -8,10 +8,9 @@
 // functions that are somewhere else. A kernel source must not see containers or glm.
 namespace swath {
 
-// A plane, and which of a box's six numbers (min x, y, z, max x, y, z) make its p-vertex.
 struct WalkPlane {
     float x, y, z, w;
-    std::uint32_t at_x, at_y, at_z;
+    bool up_x, up_y, up_z;  // not negative
 };
 
 struct WalkPlanes {
@@ -74,10 +73,14 @@ struct NodeWalks {
     void (*render_nodes)(MemberWalk& walk, std::uint64_t budget, WalkQueue<Node>& queue);
 };
 
+struct WalkBox {
+    float numbers[6];  // min x, y, z, max x, y, z
+};
+
 // Boxes sorted by cell: those of cell c are `first[c]` to `first[c + 1]`.
 struct CellBoxes {
     const std::uint32_t* first;
-    const float (*boxes)[6];
+    const WalkBox* boxes;
     const std::uint32_t* ids;
 };
 

@@ -56,9 +56,13 @@ WalkPlanes walk_planes(const Frustum& frustum) {
     WalkPlanes planes{};
     for (std::size_t i = 0; i < frustum.planes.size(); ++i) {
         const glm::vec4& p = frustum.planes[i];
-        planes.plane[i] = {p.x, p.y, p.z, p.w, p.x >= 0 ? 3u : 0u, p.y >= 0 ? 4u : 1u, p.z >= 0 ? 5u : 2u};
+        planes.plane[i] = {p.x, p.y, p.z, p.w, p.x >= 0, p.y >= 0, p.z >= 0};
     }
     return planes;
+}
+
+WalkBox walk_box(const Box& box) {
+    return {{box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z}};
 }
 
 ComputedNode computed_node(const UniformOctree& tree, int level, std::uint32_t code) {

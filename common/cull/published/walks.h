@@ -11,6 +11,7 @@ const WalkTable& walk_table(InstructionSet set);
 inline const WalkTable& best_walk_table() { return walk_table(best_instruction_set()); }
 
 WalkPlanes walk_planes(const Frustum& frustum);
+WalkBox walk_box(const Box& box);
 
 ComputedNode computed_node(const UniformOctree& tree, int level, std::uint32_t code);
 
