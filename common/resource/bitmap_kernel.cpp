@@ -51,6 +51,10 @@ void merge_bits(std::uint64_t* into, std::uint64_t* from, std::size_t count) {
     }
 }
 
+void invert_bits(std::uint64_t* words, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) words[i] = ~words[i];
+}
+
 std::size_t count_bits(const std::uint64_t* words, std::size_t count) {
     std::size_t bits = 0;
     for (std::size_t i = 0; i < count; ++i) bits += static_cast<std::size_t>(__builtin_popcountll(words[i]));

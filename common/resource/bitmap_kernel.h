@@ -8,6 +8,8 @@ namespace swath {
 //
 // merge_bits: adds to `into` the marks of `from` and clears `from`, of `count` words each.
 //
+// invert_bits: sets what is clear and clears what is set.
+//
 // count_bits: how many bits are set.
 //
 // expand_bits: writes values[i] for every bit i that is set, ascending, and clears the words. `room` is
@@ -16,6 +18,7 @@ namespace swath {
 #define SWATH_BITMAP_KERNEL(set)                                                           \
     namespace set {                                                                        \
     void merge_bits(std::uint64_t* into, std::uint64_t* from, std::size_t count);          \
+    void invert_bits(std::uint64_t* words, std::size_t count);                             \
     std::size_t count_bits(const std::uint64_t* words, std::size_t count);                 \
     void expand_bits(std::uint64_t* words, std::size_t count, const std::uint32_t* values, \
                      std::uint32_t* out, std::size_t room);                                \
