@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "common/base/check.h"
 #include "common/cull/published/algorithms.h"
 
 namespace swath {
@@ -74,6 +73,8 @@ class A2ssb final : public PublishedWalk {
         switch (algorithm_) {
             case PublishedAlgorithm::kAlgo1:
                 return Tree::walks().in_place(member.walk, nodes, count);
+            case PublishedAlgorithm::kAlgo1Lanes:
+                return Tree::walks().in_lanes(member.walk, nodes, count);
             case PublishedAlgorithm::kAlgo2:
                 return Tree::walks().depth_first(member.walk, nodes, count);
             default:
@@ -107,8 +108,6 @@ class A2ssb final : public PublishedWalk {
 
 template <class Tree>
 std::unique_ptr<PublishedWalk> make_a2ssb(PublishedAlgorithm algorithm, const Tree& tree, ThreadTeam& team) {
-    CHECK(algorithm >= PublishedAlgorithm::kAlgo1);
-    CHECK(algorithm <= PublishedAlgorithm::kAlgo3);
     return std::make_unique<A2ssb<Tree>>(algorithm, tree, team);
 }
 

@@ -15,7 +15,8 @@ namespace swath {
 template <class Tree>
 std::unique_ptr<PublishedWalk> make_adsb(const Tree& tree, ThreadTeam& team);
 
-// Adaptive two-step static balancing (A2SSB, section 3.7, algorithm 5), as `algorithm` kAlgo1 to kAlgo3.
+// Adaptive two-step static balancing (A2SSB, section 3.7, algorithm 5), as `algorithm` kAlgo1 to kAlgo3 or
+// kAlgo1Lanes.
 // Mended:
 // - of N nodes, processor k of p gets those from N k / p to N (k + 1) / p (printed, N mod p are lost);
 // - loops end before the size of their list, not at it;
@@ -26,7 +27,7 @@ std::unique_ptr<PublishedWalk> make_adsb(const Tree& tree, ThreadTeam& team);
 template <class Tree>
 std::unique_ptr<PublishedWalk> make_a2ssb(PublishedAlgorithm algorithm, const Tree& tree, ThreadTeam& team);
 
-// One processor: kAlgo4 and kAlgo5. The clock is the team's.
+// One processor: kAlgo4, kAlgo5 and kAlgo4Lanes. The clock is the team's.
 template <class Tree>
 std::unique_ptr<PublishedWalk> make_single(PublishedAlgorithm algorithm, const Tree& tree,
                                            const ThreadTeam& team);

@@ -17,7 +17,7 @@ class ObjectOctree {
   public:
     // Copies the boxes; at most 2^31. The tree is the lowest with at most `boxes_per_leaf` to a leaf that has
     // any, on average.
-    explicit ObjectOctree(std::span<const Box> boxes, double boxes_per_leaf = 4);
+    explicit ObjectOctree(std::span<const Box> boxes, double boxes_per_leaf = 8);
     ObjectOctree(const ObjectOctree&) = delete;
     ObjectOctree& operator=(const ObjectOctree&) = delete;
 

@@ -14,9 +14,11 @@ std::unique_ptr<PublishedWalk> make(PublishedAlgorithm algorithm, const Tree& tr
         case PublishedAlgorithm::kAlgo1:
         case PublishedAlgorithm::kAlgo2:
         case PublishedAlgorithm::kAlgo3:
+        case PublishedAlgorithm::kAlgo1Lanes:
             return make_a2ssb(algorithm, tree, team);
         case PublishedAlgorithm::kAlgo4:
         case PublishedAlgorithm::kAlgo5:
+        case PublishedAlgorithm::kAlgo4Lanes:
             return make_single(algorithm, tree, team);
     }
     CHECK(false);
@@ -39,6 +41,10 @@ std::string_view name_of(PublishedAlgorithm algorithm) {
             return "ALGO4";
         case PublishedAlgorithm::kAlgo5:
             return "ALGO5";
+        case PublishedAlgorithm::kAlgo1Lanes:
+            return "ALGO1 lanes";
+        case PublishedAlgorithm::kAlgo4Lanes:
+            return "ALGO4 lanes";
     }
     CHECK(false);
     return {};

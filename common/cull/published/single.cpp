@@ -1,4 +1,3 @@
-#include "common/base/check.h"
 #include "common/cull/published/algorithms.h"
 
 namespace swath {
@@ -10,7 +9,9 @@ class Single final : public PublishedWalk {
 
   public:
     Single(PublishedAlgorithm algorithm, const Tree& tree, const Clock& clock)
-        : in_place_(algorithm == PublishedAlgorithm::kAlgo4),
+        : walk_from_root_(algorithm == PublishedAlgorithm::kAlgo4   ? Tree::walks().in_place
+                          : algorithm == PublishedAlgorithm::kAlgo5 ? Tree::walks().depth_first
+                                                                    : Tree::walks().in_lanes),
           tree_(tree),
           root_(tree_.node(0, 0)),
           clock_(clock) {
@@ -21,10 +22,7 @@ class Single final : public PublishedWalk {
         const Nanoseconds start = clock_.now();
         const WalkPlanes planes = walk_planes(frustum);
         member_.begin_frame(planes, tree_.shape());
-        if (in_place_)
-            Tree::walks().in_place(member_.walk, &root_, 1);
-        else
-            Tree::walks().depth_first(member_.walk, &root_, 1);
+        walk_from_root_(member_.walk, &root_, 1);
         if (leaf_task_) leaf_task_(0, contents(member_.walk.leaves));
         member_.busy = clock_.now() - start;
         report_.members[0] = member_.report();
@@ -32,7 +30,7 @@ class Single final : public PublishedWalk {
     }
 
   private:
-    bool in_place_;
+    void (*walk_from_root_)(MemberWalk&, const Node*, std::size_t);
     Tree tree_;
     Node root_;
     const Clock& clock_;
@@ -45,7 +43,6 @@ class Single final : public PublishedWalk {
 template <class Tree>
 std::unique_ptr<PublishedWalk> make_single(PublishedAlgorithm algorithm, const Tree& tree,
                                            const ThreadTeam& team) {
-    CHECK(algorithm >= PublishedAlgorithm::kAlgo4);
     return std::make_unique<Single<Tree>>(algorithm, tree, team.clock());
 }
 

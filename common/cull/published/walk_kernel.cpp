@@ -2,6 +2,10 @@
 // cmake/compile_options.cmake for what may be included here.
 #include "common/cull/published/walk_table.h"
 
+#if defined(SWATH_KERNEL_avx2)
+#include <immintrin.h>
+#endif
+
 namespace swath::SWATH_KERNEL {
 namespace {
 
@@ -118,6 +122,122 @@ void in_place(MemberWalk& walk, const Node* nodes, std::size_t count) {
     }
 }
 
+#if defined(SWATH_KERNEL_avx2)
+// The six planes, a lane each. The two lanes left never have anything outside.
+struct LanePlanes {
+    __m256 x, y, z, w;
+    __m256 low_x, low_y, low_z;  // set where the p-vertex is the low corner
+
+    explicit LanePlanes(const WalkPlanes& planes) {
+        float of[4][8] = {{}, {}, {}, {1, 1, 1, 1, 1, 1, 1, 1}};
+        float low[3][8] = {};
+        for (int i = 0; i < 6; ++i) {
+            const WalkPlane& p = planes.plane[i];
+            of[0][i] = p.x;
+            of[1][i] = p.y;
+            of[2][i] = p.z;
+            of[3][i] = p.w;
+            low[0][i] = p.up_x ? 0.0f : -1.0f;  // a set sign is what blendv asks for
+            low[1][i] = p.up_y ? 0.0f : -1.0f;
+            low[2][i] = p.up_z ? 0.0f : -1.0f;
+        }
+        const auto mask = [](const float* signs) {
+            return _mm256_cmp_ps(_mm256_loadu_ps(signs), _mm256_setzero_ps(), _CMP_LT_OQ);
+        };
+        x = _mm256_loadu_ps(of[0]);
+        y = _mm256_loadu_ps(of[1]);
+        z = _mm256_loadu_ps(of[2]);
+        w = _mm256_loadu_ps(of[3]);
+        low_x = mask(low[0]);
+        low_y = mask(low[1]);
+        low_z = mask(low[2]);
+    }
+};
+
+// The box that moves, as the p-vertices of all planes. Only along an axis where a plane asks for the corner
+// that a move changes does its lane change. Exact, as the box is.
+struct LaneBox {
+    __m256 x, y, z;
+    __m256 edge;
+
+    LaneBox(const LanePlanes& p, const float* box)
+        : x(_mm256_blendv_ps(_mm256_set1_ps(box[3]), _mm256_set1_ps(box[0]), p.low_x)),
+          y(_mm256_blendv_ps(_mm256_set1_ps(box[4]), _mm256_set1_ps(box[1]), p.low_y)),
+          z(_mm256_blendv_ps(_mm256_set1_ps(box[5]), _mm256_set1_ps(box[2]), p.low_z)),
+          edge(_mm256_set1_ps(box[3] - box[0])) {}
+
+    bool is_outside(const LanePlanes& p) const {
+        const __m256 distance =
+            _mm256_fmadd_ps(p.x, x, _mm256_fmadd_ps(p.y, y, _mm256_fmadd_ps(p.z, z, p.w)));
+        return _mm256_movemask_ps(_mm256_cmp_ps(distance, _mm256_setzero_ps(), _CMP_LT_OQ)) != 0;
+    }
+    void to_first_child(const LanePlanes& p) {
+        edge *= 0.5f;
+        x -= _mm256_andnot_ps(p.low_x, edge);
+        y -= _mm256_andnot_ps(p.low_y, edge);
+        z -= _mm256_andnot_ps(p.low_z, edge);
+    }
+    void to_father(const LanePlanes& p) {
+        x -= _mm256_and_ps(p.low_x, edge);
+        y -= _mm256_and_ps(p.low_y, edge);
+        z -= _mm256_and_ps(p.low_z, edge);
+        edge += edge;
+    }
+    void to_brother(const float* translation) {
+        x += edge * translation[0];
+        y += edge * translation[1];
+        z += edge * translation[2];
+    }
+};
+
+// As in_place_from().
+void in_lanes_from(MemberWalk& walk, const LanePlanes& planes, LaneBox box, std::uint32_t code,
+                   std::uint32_t level) {
+    constexpr signed char kNobodysChild = -1;
+    signed char child_stack[16];
+    const std::uint32_t last_level = walk.last_level;
+    std::uint64_t tested = 0;
+    signed char child_id = kNobodysChild;
+    child_stack[level] = child_id;
+    for (;;) {
+        while (++tested, !box.is_outside(planes)) {
+            if (level == last_level) {
+                push(walk.leaves, code);
+                break;
+            }
+            box.to_first_child(planes);
+            child_id = 0;
+            child_stack[++level] = child_id;
+            code <<= 3;
+        }
+        while (child_id == 7) {
+            box.to_father(planes);
+            child_id = child_stack[--level];
+            code >>= 3;
+        }
+        if (child_id == kNobodysChild) break;
+        box.to_brother(kTranslation[child_id]);
+        child_stack[level] = ++child_id;
+        ++code;
+    }
+    walk.tested += tested;
+}
+
+template <class Node>
+void in_lanes(MemberWalk& walk, const Node* nodes, std::size_t count) {
+    const LanePlanes planes(*walk.planes);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto& node = node_at(nodes[i]);
+        in_lanes_from(walk, planes, LaneBox(planes, node.box), node.code, node.level);
+    }
+}
+#else
+template <class Node>
+void in_lanes(MemberWalk& walk, const Node* nodes, std::size_t count) {
+    in_place(walk, nodes, count);
+}
+#endif
+
 template <class Node>
 void depth_first_from(MemberWalk& walk, const Node& node) {
     ++walk.tested;
@@ -156,7 +276,7 @@ void render_nodes(MemberWalk& walk, std::uint64_t budget, WalkQueue<Node>& queue
 
 template <class Node>
 NodeWalks<Node> node_walks() {
-    return {&step_one<Node>, &in_place<Node>, &depth_first<Node>, &render_nodes<Node>};
+    return {&step_one<Node>, &in_place<Node>, &in_lanes<Node>, &depth_first<Node>, &render_nodes<Node>};
 }
 
 void cull_boxes(const WalkPlanes& planes, const CellBoxes& of, std::size_t first, std::size_t last,

@@ -67,6 +67,8 @@ struct NodeWalks {
                      WalkList<Node>& below);
     // A2SSB, algorithm 2, for each of `nodes`: one box is moved through the tree, no node is read.
     void (*in_place)(MemberWalk& walk, const Node* nodes, std::size_t count);
+    // The same with all planes tested at once, where there are vector registers.
+    void (*in_lanes)(MemberWalk& walk, const Node* nodes, std::size_t count);
     // The canonical recursion, for each of `nodes`.
     void (*depth_first)(MemberWalk& walk, const Node* nodes, std::size_t count);
     // ADSB, figure 1: breadth first until the queue is empty or `budget` nodes are tested; 0 is no limit.

@@ -54,8 +54,8 @@ TEST(WalkTable, WalksATreeAlikeInEveryInstructionSet) {
         for (std::uint32_t code = 0; code < shape.leaf_count(); ++code)
             if (!outside(frustum, shape.box_of(4, code))) expected.push_back(code);
         for (const InstructionSet set : instruction_sets())
-            for (const auto walk_from :
-                 {walk_table(set).computed.in_place, walk_table(set).computed.depth_first}) {
+            for (const auto walk_from : {walk_table(set).computed.in_place, walk_table(set).computed.in_lanes,
+                                         walk_table(set).computed.depth_first}) {
                 MemberWalk walk{&planes, 4, {}, 0};
                 walk_from(walk, &root, 1);
                 EXPECT_THAT(contents(walk.leaves), testing::ElementsAreArray(expected)) << name(set);
