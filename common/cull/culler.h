@@ -38,8 +38,8 @@ std::string_view name_of(CullAlgorithm algorithm);
 std::string cull_algorithm_names();  // with commas between
 Result<CullAlgorithm> parse_cull_algorithm(std::string_view name);
 
-// Copies what it needs of `boxes`, which should come in an order in which neighbours are near (as leaves of an
-// ObjectSet do): any order is right, but a bad one is slow. At most 2^31 boxes.
+// Copies what it needs of `boxes`, which should come in an order in which neighbours are near (as leaves of
+// an ObjectSet do): any order is right, but a bad one is slow. At most 2^31 boxes.
 std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box> boxes, ThreadTeam& team);
 
 }  // namespace swath
