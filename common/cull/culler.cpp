@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/cull/wide/wide_culler.h"
 
 namespace swath {
 namespace {
@@ -68,9 +69,9 @@ Result<CullAlgorithm> parse_cull_algorithm(std::string_view name) {
     return fail("culling '{}' is not known; there are: {}", name, cull_algorithm_names());
 }
 
-std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box> boxes,
-                                    ThreadTeam& /*team*/) {
+std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box> boxes, ThreadTeam& team) {
     if (algorithm == CullAlgorithm::kNone) return std::make_unique<NoCuller>(boxes.size());
+    if (algorithm == CullAlgorithm::kWide) return std::make_unique<WideCuller>(boxes, team);
     return std::make_unique<LoopCuller>(boxes);
 }
 
