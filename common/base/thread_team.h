@@ -26,6 +26,7 @@ class ThreadTeam {
     ThreadTeam& operator=(const ThreadTeam&) = delete;
 
     std::size_t size() const { return members_.size(); }
+    const Clock& clock() const { return clock_; }
 
     // What `member` does when it is started next. Member 0 does its task in wait().
     void set_task(std::size_t member, std::function<void()> task);

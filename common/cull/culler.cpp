@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/cull/published/octree_culler.h"
 
 namespace swath {
 namespace {
@@ -68,10 +69,19 @@ Result<CullAlgorithm> parse_cull_algorithm(std::string_view name) {
     return fail("culling '{}' is not known; there are: {}", name, cull_algorithm_names());
 }
 
-std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box> boxes,
-                                    ThreadTeam& /*team*/) {
-    if (algorithm == CullAlgorithm::kNone) return std::make_unique<NoCuller>(boxes.size());
-    return std::make_unique<LoopCuller>(boxes);
+std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box> boxes, ThreadTeam& team) {
+    switch (algorithm) {
+        case CullAlgorithm::kWide:
+            return std::make_unique<LoopCuller>(boxes);
+        case CullAlgorithm::kA2ssb:
+            return make_octree_culler(PublishedAlgorithm::kAlgo1, boxes, team);
+        case CullAlgorithm::kAdsb:
+            return make_octree_culler(PublishedAlgorithm::kAdsb, boxes, team);
+        case CullAlgorithm::kNone:
+            return std::make_unique<NoCuller>(boxes.size());
+    }
+    CHECK(false);
+    return nullptr;
 }
 
 }  // namespace swath
