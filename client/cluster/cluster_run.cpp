@@ -99,6 +99,7 @@ void ClusterRun::set_up() {
     setup.blob_bytes = job_.blob.size();
     setup.octree_depth = job_.scene->depth;
     setup.renderer = job_.renderer;
+    setup.cull = job_.cull;
     for (const Address& address : job_.servers) setup.servers.push_back(to_string(address));
     setup.display = to_string(job_.display);
     setup.frames_in_flight = job_.frames_in_flight;

@@ -28,6 +28,7 @@ struct ClusterJob {
     const ObjectSet* scene = nullptr;
     Buffer blob;  // the model for servers that lack it
     RendererKind renderer = RendererKind::kOsmesa;
+    CullAlgorithm cull = CullAlgorithm::kWide;
     Algorithm algorithm = Algorithm::kHybrid;
     std::vector<Camera> cameras;  // a frame each
     int width = 1280;
