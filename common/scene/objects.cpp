@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 #include "common/base/check.h"
@@ -34,28 +35,41 @@ std::vector<Key> morton_keys(const Mesh& mesh, const Box& box) {
     return keys;
 }
 
-// Stable, least significant digit first: triangles of one code keep the model's order.
-void radix_sort(std::vector<Key>& keys) {
+// Sorts by the lowest `bits` bits of a number of each key. Stable, least significant digit first.
+template <class Number>
+void radix_sort(std::vector<Key>& keys, int bits, const Number& number) {
     constexpr int kDigitBits = 10;
     constexpr std::uint32_t kMask = (1u << kDigitBits) - 1;
     std::vector<Key> other(keys.size());
-    for (int shift = 0; shift < kCodeBits; shift += kDigitBits) {
+    for (int shift = 0; shift < bits; shift += kDigitBits) {
         std::array<std::size_t, (1u << kDigitBits)> place{};
-        for (const Key& key : keys) ++place[key.code >> shift & kMask];
+        for (const Key& key : keys) ++place[number(key) >> shift & kMask];
         std::size_t sum = 0;
         for (std::size_t& p : place) sum += std::exchange(p, sum);
-        for (const Key& key : keys) other[place[key.code >> shift & kMask]++] = key;
+        for (const Key& key : keys) other[place[number(key) >> shift & kMask]++] = key;
         keys.swap(other);
     }
 }
 
-// The depth asked for, or the one whose number of occupied cells is closest to the number asked for; the
-// shallower of two that are equally close.
-int choose_depth(const std::vector<Key>& keys, const Granularity& granularity) {
+// By material, then by code; triangles of one code keep the model's order.
+void sort(std::vector<Key>& keys, const Mesh& mesh) {
+    radix_sort(keys, kCodeBits, [](const Key& key) { return key.code; });
+    if (mesh.materials.empty()) return;
+    const std::uint32_t last = *std::ranges::max_element(mesh.materials);
+    radix_sort(keys, std::bit_width(last), [&](const Key& key) { return mesh.materials[key.triangle]; });
+}
+
+// The depth asked for, or the one whose number of objects, that is of occupied cells of each material, is
+// closest to the number asked for; the shallower of two that are equally close.
+int choose_depth(const std::vector<Key>& keys, const Mesh& mesh, const Granularity& granularity) {
     if (granularity.depth) return *granularity.depth;
     std::array<std::size_t, kMaxOctreeDepth + 1> cells{};
     cells.fill(1);
     for (std::size_t i = 1; i < keys.size(); ++i) {
+        if (mesh.material(keys[i - 1].triangle) != mesh.material(keys[i].triangle)) {
+            for (std::size_t& count : cells) ++count;
+            continue;
+        }
         const std::uint32_t difference = keys[i - 1].code ^ keys[i].code;
         for (int depth = kMaxOctreeDepth; depth > 0 && difference >> (kCodeBits - 3 * depth) != 0; --depth)
             ++cells[static_cast<std::size_t>(depth)];
@@ -78,7 +92,9 @@ Mesh reorder(const Mesh& mesh, const std::vector<Key>& keys) {
     Mesh result;
     result.indices.reserve(mesh.indices.size());
     result.vertices.reserve(mesh.vertices.size());
+    result.materials.reserve(mesh.materials.size());
     for (const Key& key : keys) {
+        if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[key.triangle]);
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t old = mesh.indices[3 * std::size_t{key.triangle} + corner];
             if (numbers[old] == kUnused) {
@@ -91,6 +107,31 @@ Mesh reorder(const Mesh& mesh, const std::vector<Key>& keys) {
     return result;
 }
 
+// The box of `count` triangles from `first` on.
+Box box_of(const Mesh& mesh, std::uint32_t first, std::uint32_t count) {
+    Box box;
+    for (std::size_t i = 3 * std::size_t{first}; i < 3 * (std::size_t{first} + count); ++i)
+        box.extend(mesh.vertices[mesh.indices[i]].position);
+    return box;
+}
+
+// Cuts the object's triangles, whose range is known, into leaves of even size.
+void add_leaves(ObjectSet& set, Object& object, std::uint32_t leaf_triangles) {
+    const std::uint64_t count = object.triangle_count;
+    const std::uint64_t leaves = (count + leaf_triangles - 1) / leaf_triangles;
+    object.first_leaf = static_cast<std::uint32_t>(set.leaves.size());
+    object.leaf_count = static_cast<std::uint32_t>(leaves);
+    for (std::uint64_t i = 0; i < leaves; ++i) {
+        const auto begin = static_cast<std::uint32_t>(count * i / leaves);
+        const auto end = static_cast<std::uint32_t>(count * (i + 1) / leaves);
+        Leaf& leaf = set.leaves.emplace_back();
+        leaf.first_triangle = object.first_triangle + begin;
+        leaf.triangle_count = end - begin;
+        leaf.box = box_of(set.mesh, leaf.first_triangle, leaf.triangle_count);
+        object.box.extend(leaf.box);
+    }
+}
+
 }  // namespace
 
 ObjectSet build_objects(Mesh mesh, const Granularity& granularity) {
@@ -98,24 +139,29 @@ ObjectSet build_objects(Mesh mesh, const Granularity& granularity) {
     CHECK(mesh.triangle_count() <= kMaxTriangles);
     CHECK(granularity.depth.value_or(0) >= 0);
     CHECK(granularity.depth.value_or(0) <= kMaxOctreeDepth);
+    CHECK(granularity.leaf_triangles > 0u);
 
     ObjectSet set;
     set.bounds = bounds(mesh);
     std::vector<Key> keys = morton_keys(mesh, set.bounds);
-    radix_sort(keys);
-    set.depth = choose_depth(keys, granularity);
+    sort(keys, mesh);
+    set.depth = choose_depth(keys, mesh, granularity);
     set.mesh = reorder(mesh, keys);
 
     const int shift = kCodeBits - 3 * set.depth;
+    const auto begins = [&](std::size_t t) {
+        return t == 0 || keys[t].code >> shift != keys[t - 1].code >> shift ||
+               set.mesh.material(t) != set.mesh.material(t - 1);
+    };
     for (std::size_t t = 0; t < keys.size(); ++t) {
-        if (t == 0 || keys[t].code >> shift != keys[t - 1].code >> shift)
-            set.objects.push_back(
-                {.first_triangle = static_cast<std::uint32_t>(t), .triangle_count = 0, .box = {}});
-        Object& object = set.objects.back();
-        ++object.triangle_count;
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            object.box.extend(set.mesh.vertices[set.mesh.indices[3 * t + corner]].position);
+        if (begins(t)) {
+            Object& object = set.objects.emplace_back();
+            object.first_triangle = static_cast<std::uint32_t>(t);
+            object.material = set.mesh.material(t);
+        }
+        ++set.objects.back().triangle_count;
     }
+    for (Object& object : set.objects) add_leaves(set, object, granularity.leaf_triangles);
     return set;
 }
 
