@@ -32,6 +32,14 @@ std::uint32_t await_change(const std::atomic<std::uint32_t>& state, std::uint32_
     return state.load(std::memory_order_acquire);
 }
 
+// Stores what a sleeper waits for and wakes it. The store must be sequentially consistent: libstdc++ asks
+// whether anybody sleeps before it makes the system call, and with a mere release the answer could be older
+// than the store is visible, which would lose the wake-up.
+void announce(std::atomic<std::uint32_t>& state, std::uint32_t value) {
+    state.store(value, std::memory_order_seq_cst);
+    state.notify_all();
+}
+
 }  // namespace
 
 ThreadTeam::ThreadTeam(std::size_t size, const Clock& clock) : clock_(clock) {
@@ -44,8 +52,7 @@ ThreadTeam::ThreadTeam(std::size_t size, const Clock& clock) : clock_(clock) {
 ThreadTeam::~ThreadTeam() {
     for (const auto& member : members_) {
         if (!member->thread.joinable()) continue;
-        member->state.store(kStopped, std::memory_order_release);
-        member->state.notify_all();
+        announce(member->state, kStopped);
         member->thread.join();
     }
 }
@@ -70,8 +77,7 @@ bool ThreadTeam::take(Member& member) {
     member.begin = clock_.now();
     member.task();
     member.end = clock_.now();
-    member.state.store(kIdle, std::memory_order_release);
-    member.state.notify_all();
+    announce(member.state, kIdle);
     return true;
 }
 
@@ -84,8 +90,8 @@ void ThreadTeam::set_task(std::size_t member, std::function<void()> task) {
 void ThreadTeam::start(std::size_t member) {
     CHECK(member < size());
     CHECK(static_cast<bool>(members_[member]->task));
-    members_[member]->state.store(kStarted, std::memory_order_release);
-    if (member != 0) members_[member]->state.notify_all();
+    CHECK(members_[member]->state.load(std::memory_order_acquire) == kIdle);
+    announce(members_[member]->state, kStarted);
 }
 
 void ThreadTeam::wait() {

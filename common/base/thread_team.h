@@ -12,8 +12,8 @@ namespace swath {
 
 // A team of threads that works through short tasks together: the "minimum thread management system" of both
 // culling papers (ADSB, section 7 and appendix A: Init, SetTask, StartWorking, WaitUntilWorkFinished).
-// Member 0 is the caller; the others are threads that sleep between tasks. All calls come from one thread, the
-// caller's. There may be more members than cores: a waiting thread spins for a moment, then yields, then
+// Member 0 is the caller; the others are threads that sleep between tasks. All calls come from one thread,
+// the caller's. There may be more members than cores: a waiting thread spins for a moment, then yields, then
 // sleeps, and wait() does itself what no other member has begun, so a busy machine costs no more than doing
 // it all alone. Tasks must not throw and must not call the team.
 class ThreadTeam {
@@ -26,6 +26,7 @@ class ThreadTeam {
     ThreadTeam& operator=(const ThreadTeam&) = delete;
 
     std::size_t size() const { return members_.size(); }
+    const Clock& clock() const { return clock_; }
 
     // What `member` does when it is started next. Member 0 does its task in wait().
     void set_task(std::size_t member, std::function<void()> task);

@@ -6,35 +6,19 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/geometry/morton.h"
 
 namespace swath {
 namespace {
 
 constexpr int kCodeBits = 3 * kMaxOctreeDepth;
-constexpr double kCells = 1 << kMaxOctreeDepth;  // an axis
+static_assert(kMaxOctreeDepth == kMortonDepth);
 
 // A triangle and the Morton code of its centre.
 struct Key {
     std::uint32_t code;
     std::uint32_t triangle;
 };
-
-// Spreads the low ten bits: bit i goes to bit 3 i.
-std::uint32_t spread(std::uint32_t bits) {
-    bits = (bits | bits << 16) & 0x030000ff;
-    bits = (bits | bits << 8) & 0x0300f00f;
-    bits = (bits | bits << 4) & 0x030c30c3;
-    bits = (bits | bits << 2) & 0x09249249;
-    return bits;
-}
-
-// In double the sums and quotients of floats are as good as exact, so that which side of a cell's border a
-// centre falls on is a property of the model and not of rounding.
-std::uint32_t cell(double centre, double min, double size) {
-    if (!(size > 0)) return 0;  // a flat axis
-    const double at = (centre - min) / size * kCells;
-    return static_cast<std::uint32_t>(std::clamp(at, 0.0, kCells - 1));
-}
 
 std::vector<Key> morton_keys(const Mesh& mesh, const Box& box) {
     const glm::dvec3 min(box.min);
@@ -45,8 +29,7 @@ std::vector<Key> morton_keys(const Mesh& mesh, const Box& box) {
         for (std::size_t corner = 0; corner < 3; ++corner)
             triangle.extend(mesh.vertices[mesh.indices[3 * t + corner]].position);
         const glm::dvec3 centre = 0.5 * (glm::dvec3(triangle.min) + glm::dvec3(triangle.max));
-        keys[t].code = spread(cell(centre.x, min.x, size.x)) | spread(cell(centre.y, min.y, size.y)) << 1 |
-                       spread(cell(centre.z, min.z, size.z)) << 2;
+        keys[t].code = morton_code(centre, min, size);
         keys[t].triangle = static_cast<std::uint32_t>(t);
     }
     return keys;

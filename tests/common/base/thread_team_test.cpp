@@ -37,6 +37,19 @@ TEST(ThreadTeam, ShowsTheCallerWhatTasksWroteRoundAfterRound) {
     }
 }
 
+// Members fall asleep between rounds, some of them just when they are started: a lost wake-up would hang.
+TEST(ThreadTeam, WakesMembersThatSleep) {
+    ThreadTeam team(3, kClock);
+    std::atomic<int> done{0};
+    for (int round = 0; round < 3'000; ++round) {
+        const Nanoseconds until = kClock.now() + Nanoseconds(50 * (round % 1'000));
+        while (kClock.now() < until) {
+        }
+        team.run([&](std::size_t) { ++done; });
+    }
+    EXPECT_EQ(done, 9'000);
+}
+
 TEST(ThreadTeam, StartsOnlyWhomItIsToldTo) {
     ThreadTeam team(3, kClock);
     std::atomic<int> done{0};
@@ -72,11 +85,16 @@ TEST(ThreadTeam, LetsTheCallerDoWhatNobodyHasBegun) {
     EXPECT_GT(by_caller, 100);
 }
 
-TEST(ThreadTeam, RefusesAMemberThatItDoesNotHaveAndATeamOfNobody) {
+TEST(ThreadTeam, RefusesAMemberThatItDoesNotHaveOrThatIsAtWorkAndATeamOfNobody) {
     ThreadTeam team(2, kClock);
     EXPECT_THROW(team.set_task(2, [] {}), CheckFailed);
     EXPECT_THROW(team.start(2), CheckFailed);
     EXPECT_THROW(team.start(1), CheckFailed);
+    team.set_task(0, [] {});
+    team.start(0);
+    EXPECT_THROW(team.start(0), CheckFailed);
+    EXPECT_THROW(team.set_task(0, [] {}), CheckFailed);
+    team.wait();
     EXPECT_THROW(ThreadTeam(0, kClock), CheckFailed);
 }
 

@@ -1,0 +1,35 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/geometry/box.h"
+#include "common/octree/uniform_octree.h"
+
+namespace swath {
+
+// Boxes in the order of the cells of a uniform octree that their centres lie in. The octree's cube has its
+// low corner at `origin` and edges of `side` and contains all centres. Boxes that are not finite have no
+// place.
+struct MortonOrder {
+    struct Entry {
+        std::uint32_t code;  // of the cell, at level UniformOctree::kMaxHeight
+        std::uint32_t box;   // index
+        auto operator<=>(const Entry&) const = default;
+    };
+
+    glm::dvec3 origin{0};
+    double side = 1;
+    std::vector<Entry> placed;  // ascending
+    std::vector<std::uint32_t> unplaced;
+    // Cells with a box in them, by level.
+    std::array<std::size_t, UniformOctree::kMaxHeight + 1> occupied{};
+
+    // The lowest tree, no higher than `highest`, that has at most `boxes_per_leaf` to an occupied leaf.
+    int height_for(double boxes_per_leaf, int highest) const;
+};
+
+MortonOrder morton_order(std::span<const Box> boxes);
+
+}  // namespace swath
