@@ -60,7 +60,7 @@ std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box
         case CullAlgorithm::kWide:
             return std::make_unique<WideCuller>(boxes, team);
         case CullAlgorithm::kA2ssb:
-            return make_octree_culler(PublishedAlgorithm::kAlgo1, boxes, team);
+            return make_octree_culler(PublishedAlgorithm::kAlgo1Lanes, boxes, team);
         case CullAlgorithm::kAdsb:
             return make_octree_culler(PublishedAlgorithm::kAdsb, boxes, team);
         case CullAlgorithm::kNone:

@@ -9,17 +9,21 @@ namespace swath {
 namespace {
 
 constexpr std::size_t kIdsPerPart = 1 << 14;
+constexpr double kIdNs = 2;  // about
 
 }  // namespace
 
-CountingSort::CountingSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team)
-    : keys_(keys), points_(static_cast<std::size_t>(points)), team_(team) {
+CountingSort::CountingSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team,
+                           SharingMode mode)
+    : keys_(keys), points_(static_cast<std::size_t>(points)), team_(team), sharing_(team, mode) {
     if (!keys.empty()) CHECK(std::uint64_t{*std::ranges::max_element(keys)} < points);
 }
 
 std::span<const std::uint32_t> CountingSort::sort(std::span<const std::uint32_t> visible) {
     // A part with fewer ids than points would spend its time on counters.
-    const std::size_t parts = parts_for(visible.size(), std::max(kIdsPerPart, points_), team_);
+    const double work = kIdNs * static_cast<double>(visible.size());
+    const std::size_t parts =
+        std::min(parts_for(visible.size(), std::max(kIdsPerPart, points_), team_), sharing_.members(work));
     const std::uint32_t* const keys = keys_.data();
     std::uint32_t* const sorted = sorted_.room(visible.size());
     histograms_.resize(parts, points_);
@@ -42,6 +46,7 @@ std::span<const std::uint32_t> CountingSort::sort(std::span<const std::uint32_t>
             sorted[positions[keys[id]]++] = id;
         }
     });
+    sharing_.done(work);
     return {sorted, visible.size()};
 }
 

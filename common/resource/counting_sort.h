@@ -3,6 +3,7 @@
 #include <span>
 
 #include "common/base/thread_team.h"
+#include "common/cull/wide/sharing.h"
 #include "common/resource/histograms.h"
 #include "common/resource/scratch.h"
 
@@ -18,7 +19,8 @@ class CountingSort {
   public:
     // Every key is below `points`. Keeps 4 bytes for each point, from the first call, and as much for every
     // member that takes part.
-    CountingSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team);
+    CountingSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team,
+                 SharingMode mode = SharingMode::kWhenItPays);
 
     // `visible`: ids below keys.size(), ascending. The same ids by (key, id), valid until the next call.
     std::span<const std::uint32_t> sort(std::span<const std::uint32_t> visible);
@@ -27,6 +29,7 @@ class CountingSort {
     std::span<const std::uint32_t> keys_;
     std::size_t points_;
     ThreadTeam& team_;
+    Sharing sharing_;
     Histograms histograms_;
     Scratch<std::uint32_t> sorted_;
 };

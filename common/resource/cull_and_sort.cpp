@@ -1,25 +1,28 @@
 #include "common/resource/cull_and_sort.h"
 
+#include <vector>
+
 #include "common/base/check.h"
 #include "common/resource/parts.h"
 
 namespace swath {
 namespace {
 
-// Shares of the objects between which scanning is the cheaper way, measured with 100,000, one and ten million
-// objects in random places on one core, ids in the order of neighbourhood: below, the hierarchy leaves most
-// boxes alone; above, it takes whole branches, and RankBitmap has little to mark. In between scanning takes
-// 0.7 to 0.95 times as long. Where the ways cross depends on how fast memory is, and little is lost there.
-constexpr double kScanFrom = 1.0 / 3;
-constexpr double kScanTo = 5.0 / 6;
+// Shares of the objects between which scanning is the cheaper way: below, the hierarchy leaves most boxes
+// alone; above, it takes whole branches, and RankBitmap has little to mark. Measured on one core with objects
+// in random places, ids in the order of neighbourhood: from 0.3 (100,000 objects) or 0.45 (a million) up to
+// 0.85, scanning took 0.65 to 0.95 times as long. With ten million, memory is the limit, and it is from 0.55
+// to 0.75. Where the ways cross, little is lost by taking the other.
+constexpr double kScanFrom = 0.4;
+constexpr double kScanTo = 0.8;
 
 constexpr std::size_t kIdsPerPart = 1 << 15;
 
-std::unique_ptr<Culler> make_scan(std::span<const Box> boxes, const KeyOrder& order, ThreadTeam& team) {
-    std::vector<Box> by_rank;
-    by_rank.reserve(boxes.size());
-    for (const std::uint32_t id : order.ids()) by_rank.push_back(boxes[id]);
-    return make_culler(CullAlgorithm::kWide, by_rank, team);
+std::vector<Box> in_order(std::span<const Box> boxes, std::span<const std::uint32_t> ids) {
+    std::vector<Box> ordered;
+    ordered.reserve(ids.size());
+    for (const std::uint32_t id : ids) ordered.push_back(boxes[id]);
+    return ordered;
 }
 
 }  // namespace
@@ -27,7 +30,8 @@ std::unique_ptr<Culler> make_scan(std::span<const Box> boxes, const KeyOrder& or
 CullAndSort::CullAndSort(std::span<const Box> boxes, std::span<const std::uint32_t> keys, ThreadTeam& team)
     : team_(team), sorter_(keys, team), hierarchy_(make_culler(CullAlgorithm::kWide, boxes, team)) {
     CHECK(boxes.size() == keys.size());
-    if (!sorter_.order().ids_are_ranks()) scan_ = make_scan(boxes, sorter_.order(), team);
+    const KeyOrder& order = sorter_.order();
+    if (!order.ids_are_ranks()) scan_ = std::make_unique<Scan>(in_order(boxes, order.ids()), team);
 }
 
 CullAndSort::Way CullAndSort::next_way() const {
@@ -41,8 +45,8 @@ std::span<const std::uint32_t> CullAndSort::cull(const Frustum& frustum) { retur
 
 std::span<const std::uint32_t> CullAndSort::cull(const Frustum& frustum, Way way) {
     way_ = scan_ == nullptr ? Way::kHierarchy : way;
-    Culler& culler = way_ == Way::kHierarchy ? *hierarchy_ : *scan_;
-    const std::span<const std::uint32_t> visible = culler.cull(frustum);
+    const std::span<const std::uint32_t> visible =
+        way_ == Way::kHierarchy ? hierarchy_->cull(frustum) : scan_->scan.cull(frustum);
     last_visible_ = visible.size();
     return way_ == Way::kHierarchy ? sorter_.sort(visible) : ids_of(visible);
 }

@@ -5,6 +5,8 @@
 
 #include "common/base/thread_team.h"
 #include "common/cull/culler.h"
+#include "common/cull/wide/box_blocks.h"
+#include "common/cull/wide/flat_scan.h"
 #include "common/geometry/box.h"
 #include "common/geometry/frustum.h"
 #include "common/resource/resource_sorter.h"
@@ -47,7 +49,13 @@ class CullAndSort {
     ThreadTeam& team_;
     ResourceSorter sorter_;
     std::unique_ptr<Culler> hierarchy_;
-    std::unique_ptr<Culler> scan_;  // of the boxes by rank; none where ids are ranks
+    // The boxes by rank; none where ids are ranks.
+    struct Scan {
+        Scan(std::span<const Box> by_rank, ThreadTeam& team) : boxes(by_rank), scan(boxes, team) {}
+        BoxBlocks boxes;
+        FlatScan scan;
+    };
+    std::unique_ptr<Scan> scan_;
     Scratch<std::uint32_t> scanned_;
     std::size_t last_visible_ = 0;
     Way way_ = Way::kHierarchy;

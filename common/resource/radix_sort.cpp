@@ -10,6 +10,7 @@ namespace swath {
 namespace {
 
 constexpr std::size_t kIdsPerPart = 1 << 14;
+constexpr double kIdNs = 2;  // about
 
 // What is moved from pass to pass: what is left of the key above the id. The loops below take what they need
 // by value: through references the compiler would read it again after each counter that it writes.
@@ -69,15 +70,17 @@ RadixDigits radix_digits(std::uint64_t points) {
     return digits;
 }
 
-RadixSort::RadixSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team)
-    : keys_(keys), digits_(radix_digits(points)), team_(team) {
+RadixSort::RadixSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team,
+                     SharingMode mode)
+    : keys_(keys), digits_(radix_digits(points)), team_(team), sharing_(team, mode) {
     if (!keys.empty()) CHECK(std::uint64_t{*std::ranges::max_element(keys)} < points);
 }
 
 std::span<const std::uint32_t> RadixSort::sort(std::span<const std::uint32_t> visible) {
     const std::size_t size = visible.size();
     if (digits_.count == 0) return visible;
-    const std::size_t parts = parts_for(size, kIdsPerPart, team_);
+    const double work = kIdNs * static_cast<double>(size);
+    const std::size_t parts = std::min(parts_for(size, kIdsPerPart, team_), sharing_.members(work));
     for (int digit = 0; digit < digits_.count; ++digit)
         histograms_[digit].resize(parts, std::size_t{1} << digits_.bits[digit]);
     std::uint64_t* from = packed_[0].room(size);
@@ -117,6 +120,7 @@ std::span<const std::uint32_t> RadixSort::sort(std::span<const std::uint32_t> vi
         });
         std::swap(from, to);
     }
+    sharing_.done(work);
     return {sorted, size};
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/base/thread_team.h"
+#include "common/cull/wide/sharing.h"
 #include "common/resource/histograms.h"
 #include "common/resource/scratch.h"
 
@@ -31,7 +32,8 @@ RadixDigits radix_digits(std::uint64_t points);
 class RadixSort {
   public:
     // Every key is below `points`, at most 2^32.
-    RadixSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team);
+    RadixSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team,
+              SharingMode mode = SharingMode::kWhenItPays);
 
     // `visible`: ids below keys.size(), ascending. The same ids by (key, id), valid until the next call (and
     // as long as `visible`, which is the answer where there is one key).
@@ -41,6 +43,7 @@ class RadixSort {
     std::span<const std::uint32_t> keys_;
     RadixDigits digits_;
     ThreadTeam& team_;
+    Sharing sharing_;
     std::array<Histograms, RadixDigits::kMax> histograms_;
     std::array<Scratch<std::uint64_t>, 2> packed_;
     Scratch<std::uint32_t> sorted_;

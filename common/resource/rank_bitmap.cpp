@@ -1,5 +1,7 @@
 #include "common/resource/rank_bitmap.h"
 
+#include <algorithm>
+
 #include "common/base/check.h"
 #include "common/resource/bitmap_kernel.h"
 #include "common/resource/parts.h"
@@ -8,6 +10,7 @@ namespace swath {
 namespace {
 
 constexpr std::size_t kIdsPerPart = 1 << 15;
+constexpr double kIdNs = 1;  // about
 
 }  // namespace
 
@@ -22,8 +25,8 @@ RankBitmap::Kernel RankBitmap::kernel_for(InstructionSet set) {
     return {portable::merge_bits, portable::invert_bits, portable::count_bits, portable::expand_bits};
 }
 
-RankBitmap::RankBitmap(const KeyOrder& order, ThreadTeam& team, InstructionSet set)
-    : order_(order), team_(team), kernel_(kernel_for(set)) {}
+RankBitmap::RankBitmap(const KeyOrder& order, ThreadTeam& team, InstructionSet set, SharingMode mode)
+    : order_(order), team_(team), sharing_(team, mode), kernel_(kernel_for(set)) {}
 
 // Marks the ranks of ids.
 void RankBitmap::mark(std::span<const std::uint32_t> ids, std::uint64_t* bitmap) const {
@@ -54,7 +57,8 @@ void RankBitmap::mark_gaps(std::span<const std::uint32_t> ids, std::uint32_t beg
 std::span<const std::uint32_t> RankBitmap::sort(std::span<const std::uint32_t> visible) {
     const std::size_t objects = order_.size();
     const std::size_t words = (objects + 63) / 64;
-    const std::size_t parts = parts_for(visible.size(), kIdsPerPart, team_);
+    const double work = kIdNs * static_cast<double>(visible.size());
+    const std::size_t parts = std::min(parts_for(visible.size(), kIdsPerPart, team_), sharing_.members(work));
     const bool inverse = visible.size() > objects / 2;
     while (bitmaps_.size() < parts) bitmaps_.emplace_back(words);
     run_parts(team_, parts, [&](std::size_t part) {
@@ -90,6 +94,7 @@ std::span<const std::uint32_t> RankBitmap::sort(std::span<const std::uint32_t> v
         kernel_.expand(merged + range.begin, range.end - range.begin, order_.ids().data() + 64 * range.begin,
                        sorted + firsts_[part], firsts_[part + 1] - firsts_[part]);
     });
+    sharing_.done(work);
     return {sorted, visible.size()};
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/base/instruction_set.h"
 #include "common/base/thread_team.h"
+#include "common/cull/wide/sharing.h"
 #include "common/resource/key_order.h"
 #include "common/resource/scratch.h"
 
@@ -19,7 +20,8 @@ namespace swath {
 // `order` and `team` must outlive it. One thread at a time.
 class RankBitmap {
   public:
-    explicit RankBitmap(const KeyOrder& order, ThreadTeam& team, InstructionSet set = best_instruction_set());
+    explicit RankBitmap(const KeyOrder& order, ThreadTeam& team, InstructionSet set = best_instruction_set(),
+                        SharingMode mode = SharingMode::kWhenItPays);
 
     // `visible`: ids below order.size(), ascending, each once. The same ids by (key, id), valid until the
     // next call.
@@ -40,6 +42,7 @@ class RankBitmap {
 
     const KeyOrder& order_;
     ThreadTeam& team_;
+    Sharing sharing_;
     Kernel kernel_;
     std::vector<std::vector<std::uint64_t>> bitmaps_;  // of each member, clear between calls
     std::vector<std::size_t> firsts_;

@@ -36,11 +36,11 @@ struct Leaf {
 // How finely to cut: to a depth of the octree, or to the depth that comes closest to a number of objects, and
 // each object to leaves of a number of triangles.
 struct Granularity {
-    std::optional<int> depth;    // 0 to kMaxOctreeDepth
-    std::size_t objects = 1500;  // used when there is no depth
+    std::optional<int> depth = std::nullopt;  // 0 to kMaxOctreeDepth
+    std::size_t objects = 1500;               // used when there is no depth
     // An object has as few leaves as hold this many at most, all of the same size but for one triangle.
-    // Smaller ones cull more and cost more draws (docs/benchmarks.md has figures).
-    std::uint32_t leaf_triangles = 256;  // at least 1
+    // Smaller ones drop more and take longer to cull (docs/benchmarks.md has figures).
+    std::uint32_t leaf_triangles = 128;  // at least 1
 };
 inline constexpr int kMaxOctreeDepth = 10;
 

@@ -16,6 +16,7 @@ struct Corners {
 
 // Bit for bit outside() of common/geometry/frustum.h: the one plane expression.
 inline bool is_outside(const WalkPlanes& planes, const Corners& box) {
+#pragma GCC unroll 6  // each plane's branches on its signs go the same way all frame long
     for (const WalkPlane& p : planes.plane) {
         const float x = p.up_x ? box.high[0] : box.low[0];
         const float y = p.up_y ? box.high[1] : box.low[1];

@@ -7,15 +7,17 @@ namespace {
 
 // Waking a member takes some 10 µs, more on a busy machine.
 constexpr double kWorthAMemberNs = 25'000;
-constexpr std::uint32_t kShortest = 16;  // frames
+constexpr std::uint32_t kShortest = 32;  // frames
 constexpr std::uint32_t kLongest = 1024;
 
 }  // namespace
 
-void Sharing::Rate::add(double sample) {
-    constexpr double kWeight = 0.25;
-    constexpr double kOutlier = 4;  // one frame that was interrupted says little of the next
-    value = value == 0 ? sample : value + kWeight * (std::min(sample, kOutlier * value) - value);
+double Sharing::Rate::value() const {
+    std::array<double, 5> sorted = samples_;
+    const std::size_t count = std::min(count_, sorted.size());
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(count));
+    return *middle;
 }
 
 std::size_t Sharing::members(double expected_ns) {
@@ -24,12 +26,14 @@ std::size_t Sharing::members(double expected_ns) {
     counts_ = most >= 2;
     sharing_ = false;
     if (!counts_) return 1;
-    if (alone_.value != 0) {
-        sharing_ = shared_.value == 0 || shared_.value < alone_.value;
-        if (shared_.value != 0 && ++since_ > interval_) {
+    if (alone_.known()) {
+        sharing_ = !shared_.known() || shared_pays();
+        if (shared_.known() && ++since_ > interval_) {
+            // One frame tells whether it is worth a second.
             since_ = 0;
             interval_ = std::clamp(2 * interval_, kShortest, kLongest);
             sharing_ = !sharing_;
+            (sharing_ ? shared_ : alone_).forget();
         }
     }
     begin_ = team_.clock().now();
@@ -38,11 +42,11 @@ std::size_t Sharing::members(double expected_ns) {
 
 void Sharing::done(double work_ns) {
     if (!counts_ || work_ns <= 0) return;
-    const bool paid = shared_.value != 0 && shared_.value < alone_.value;
     const double took = static_cast<double>((team_.clock().now() - begin_).count());
     (sharing_ ? shared_ : alone_).add(took / work_ns);
-    const bool pays = shared_.value != 0 && shared_.value < alone_.value;
-    if (paid != pays) interval_ = kShortest;
+    const bool pays = shared_pays();
+    if (pays != paid_) interval_ = kShortest;
+    paid_ = pays;
 }
 
 }  // namespace swath

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -28,17 +29,27 @@ class Sharing {
     void done(double work_ns);
 
   private:
-    // Time taken over work, of the last frames.
-    struct Rate {
-        double value = 0;  // 0: not known
-        void add(double sample);
+    // Time taken over work: the median of the last few frames, since on a busy machine every third may be
+    // interrupted.
+    class Rate {
+      public:
+        bool known() const { return count_ > 0; }
+        double value() const;  // once known
+        void add(double sample) { samples_[count_++ % samples_.size()] = sample; }
+        void forget() { count_ = 0; }
+
+      private:
+        std::array<double, 5> samples_{};
+        std::size_t count_ = 0;
     };
+    bool shared_pays() const { return shared_.known() && shared_.value() < alone_.value(); }
 
     const ThreadTeam& team_;
     SharingMode mode_;
     Rate alone_;
     Rate shared_;
     bool sharing_ = false;
+    bool paid_ = false;           // sharing did, as of the last frame
     bool counts_ = false;         // the frame is large enough to learn from
     std::uint32_t interval_ = 0;  // frames until the other way is tried
     std::uint32_t since_ = 0;

@@ -26,13 +26,14 @@ class Sorters {
         : keys_(keys),
           team_(members, kClock),
           order_(keys_, team_),
-          radix_(keys_, points, team_),
+          radix_(keys_, points, team_, SharingMode::kAlways),
           sorter_(keys_, team_) {
-        if (points <= 200'000) counting_ = std::make_unique<CountingSort>(keys_, points, team_);
+        if (points <= 200'000)
+            counting_ = std::make_unique<CountingSort>(keys_, points, team_, SharingMode::kAlways);
         if (points * members <= 1'000'000)
             literal_ = std::make_unique<LiteralSort>(*LiteralSort::make(keys_, points, team_));
         for (const InstructionSet set : instruction_sets())
-            bitmaps_.push_back(std::make_unique<RankBitmap>(order_, team_, set));
+            bitmaps_.push_back(std::make_unique<RankBitmap>(order_, team_, set, SharingMode::kAlways));
     }
 
     void expect_order(const Ids& visible) {

@@ -58,7 +58,8 @@ TEST(OctreeCuller, WorksWithEveryPublishedAlgorithm) {
     ThreadTeam team(3, kClock);
     for (const PublishedAlgorithm algorithm :
          {PublishedAlgorithm::kAdsb, PublishedAlgorithm::kAlgo1, PublishedAlgorithm::kAlgo2,
-          PublishedAlgorithm::kAlgo3, PublishedAlgorithm::kAlgo4, PublishedAlgorithm::kAlgo5}) {
+          PublishedAlgorithm::kAlgo3, PublishedAlgorithm::kAlgo4, PublishedAlgorithm::kAlgo5,
+          PublishedAlgorithm::kAlgo1Lanes, PublishedAlgorithm::kAlgo4Lanes}) {
         const auto culler = make_octree_culler(algorithm, boxes, team);
         for (const Frustum& view : views)
             EXPECT_THAT(culler->cull(view), ElementsAreArray(brute_force(boxes, view))) << name_of(algorithm);
