@@ -16,6 +16,8 @@ pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
+# Benchmarks only.
+pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)
 
 # tl::expected is one header.
 find_path(SWATH_EXPECTED_INCLUDE tl/expected.hpp REQUIRED)

@@ -113,8 +113,15 @@ std::string style_of(const Series& series, std::size_t place) {
     return fmt::format("with lines linecolor rgb '{}' linewidth 1 dashtype (4,4)", kGrey);
 }
 
-// Tics at the places that have points, if they are few and far enough apart to be read; else gnuplot's.
+// The plot's own tics, else tics at the places that have points, if they are few and far enough apart to be
+// read; else gnuplot's.
 std::string tics_of(const Plot& plot) {
+    if (!plot.x_tics.empty()) {
+        std::string tics;
+        for (const auto& [place, label] : plot.x_tics)
+            tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", tic(label), place);
+        return fmt::format("set xtics ({})\n", tics);
+    }
     constexpr double kClosest = 0.06;  // of the axis
     std::set<double> places;
     for (const Series& series : plot.series) {
@@ -137,6 +144,7 @@ Result<std::string> script_of(const Plot& plot) {
     std::string script = frame(plot.title, plot.x_label, plot.y_label);
     script +=
         plot.log2_x ? "set logscale x 2\nset offsets graph 0.02, graph 0.02, 0, 0\n" : "set xrange [*<0:*]\n";
+    if (plot.log10_y) script += "set yrange [*:*]\nset logscale y 10\nset format y '%g'\n";
     std::string command;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
         const Series& series = plot.series[i];
@@ -146,8 +154,10 @@ Result<std::string> script_of(const Plot& plot) {
             for (const double value : {x, y})
                 if (const Status drawable = check_number(value, series.name); !drawable)
                     return tl::unexpected(drawable.error());
-            if (plot.log2_x && x <= 0)
-                return fail("cannot draw '{}': {} is not on a logarithmic axis", printable(series.name), x);
+            for (const auto& [value, logarithmic] : {std::pair{x, plot.log2_x}, std::pair{y, plot.log10_y}})
+                if (logarithmic && value <= 0)
+                    return fail("cannot draw '{}': {} is not on a logarithmic axis", printable(series.name),
+                                value);
             script += fmt::format("{} {}\n", x, y);
         }
         script += "END\n";

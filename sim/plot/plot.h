@@ -30,6 +30,8 @@ struct Plot {
     std::string y_label;
     bool log2_x = false;  // as in the papers' figures over the number of servers; x is then more than 0
     std::vector<Series> series;
+    bool log10_y = false;                                     // y is then more than 0
+    std::vector<std::pair<double, std::string>> x_tics = {};  // place and text, for numbers too long to read
 };
 
 // Stacked bars, in groups along the axis. Bars that stand side by side, one segment each, are stacks whose

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -40,9 +41,12 @@ struct Effort {
     std::string model;
     int repetitions = 1;
     std::size_t frames = 2;
+    bool smoke = false;
+    std::filesystem::path out = {};  // folder for tables and plots; empty for none
 };
-Result<Effort>
-full_effort();  // the Dragon from ../shared/models, else models/ as script/fetch-models leaves it
+// The Dragon from ../shared/models, else models/ as script/fetch-models leaves it. Without it an error, if
+// the benchmark needs it.
+Result<Effort> full_effort(bool needs_model);
 Effort smoke_effort();
 
 // A program run to its end.
@@ -57,6 +61,7 @@ Finished run_program(const std::vector<std::string>& command);
 std::string client_program();  // swath-client beside this program
 
 // One benchmark a function; errors are what is missing (a model, a program).
+Status bench_culling(Figures& figures, const Effort& effort);  // the one that draws plots
 Status bench_cluster(Figures& figures, const Effort& effort);
 Status bench_culling_render(Figures& figures, const Effort& effort);
 Status bench_swap(Figures& figures, const Effort& effort);

@@ -11,17 +11,27 @@
 
 int main(int argc, char** argv) {
     using namespace swath;
-    const std::map<std::string, Status (*)(bench::Figures&, const bench::Effort&)> benchmarks{
-        {"cluster", bench::bench_cluster},     {"culling-render", bench::bench_culling_render},
-        {"load", bench::bench_load},           {"peers", bench::bench_peers},
-        {"simulator", bench::bench_simulator}, {"swap", bench::bench_swap}};
+    struct Benchmark {
+        Status (*run)(bench::Figures&, const bench::Effort&);
+        bool needs_model = true;
+        bool draws = false;
+    };
+    const std::map<std::string, Benchmark> benchmarks{{"cluster", {bench::bench_cluster}},
+                                                      {"culling", {bench::bench_culling, false, true}},
+                                                      {"culling-render", {bench::bench_culling_render}},
+                                                      {"load", {bench::bench_load}},
+                                                      {"peers", {bench::bench_peers}},
+                                                      {"simulator", {bench::bench_simulator}},
+                                                      {"swap", {bench::bench_swap}}};
     std::string name;
     std::string json;
+    std::string out;
     bool smoke = false;
     CLI::App app{
         "swath-bench: every figure that docs/benchmarks.md names, as ratios within one run where that is "
         "possible.\n"
         "  cluster    real processes: CPU of a cluster of one, and speed-up of two, against --single\n"
+        "  culling    culling and sorting: ours beside both papers' and Bullet's\n"
         "  culling-render  what culling by leaf saves: triangles and time, from inside and sort-first\n"
         "  load       reading the Dragon and cutting it into objects\n"
         "  peers      ours beside IceT's and OpenSceneGraph's on the Dragon\n"
@@ -29,18 +39,24 @@ int main(int argc, char** argv) {
         "  swap       bytes a swapped pixel takes, and how fast pixels are merged\n"};
     app.add_option("NAME", name, "which")
         ->required()
-        ->check(CLI::IsMember({"cluster", "culling-render", "load", "peers", "simulator", "swap"}));
+        ->check(
+            CLI::IsMember({"cluster", "culling", "culling-render", "load", "peers", "simulator", "swap"}));
     app.add_option("--json", json, "write {\"figures\": {name: number}} to this file");
+    app.add_option("--out", out, "culling: also draw plots, into this folder, with their numbers as CSV");
     app.add_flag("--smoke", smoke,
                  "a small built-in model, once: to see that it runs; the figures mean nothing");
     if (const auto code = parse_options(app, argc, argv)) return *code;
     tune_allocator();
     spdlog::set_level(spdlog::level::warn);
 
-    const auto effort = smoke ? bench::smoke_effort() : bench::full_effort();
+    const Benchmark& benchmark = benchmarks.at(name);
+    if (!out.empty() && !benchmark.draws)
+        return usage_error(Error{fmt::format("--out: '{}' draws nothing", name)});
+    auto effort = smoke ? bench::smoke_effort() : bench::full_effort(benchmark.needs_model);
     if (!effort) return run_error(effort.error());
+    effort->out = out;
     bench::Figures figures;
-    if (const auto status = benchmarks.at(name)(figures, *effort); !status) return run_error(status.error());
+    if (const auto status = benchmark.run(figures, *effort); !status) return run_error(status.error());
     std::cout << figures.to_text(name);
     if (!json.empty()) {
         const std::string text = figures.to_json();

@@ -121,6 +121,21 @@ TEST(Draw, PutsTicsWhereThePointsAre) {
     EXPECT_THAT(drawn(plot).svg, Not(HasSubstr("<text> 7.1</text>")));
 }
 
+TEST(Draw, NamesTicsAsItIsTold) {
+    Plot plot = speed_up();
+    plot.x_tics = {{8, "eight"}, {64, "50%"}};
+    EXPECT_THAT(drawn(plot).svg, testing::AllOf(HasSubstr("eight</text>"), HasSubstr("50%</text>"),
+                                                Not(HasSubstr("16</text>"))));
+}
+
+TEST(Draw, DrawsYOnALogarithmicAxis) {
+    Plot plot{"", "", "", false, {{"a", {{1, 0.01}, {2, 100}}}}, true};
+    EXPECT_THAT(drawn(plot).svg, testing::AllOf(HasSubstr(">0.01</text>"), HasSubstr(">1</text>"),
+                                                HasSubstr(">100</text>"), Not(HasSubstr(">0</text>"))));
+    plot.series[0].points[0].second = 0;
+    EXPECT_EQ(draw(plot, "/tmp/x").error().message, "cannot draw 'a': 0 is not on a logarithmic axis");
+}
+
 TEST(Draw, WritesTheSameBytesAgain) {
     const Drawn first = drawn(speed_up());
     const Drawn second = drawn(speed_up());

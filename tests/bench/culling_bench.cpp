@@ -1,0 +1,17 @@
+#include "tests/bench/culling_bench.h"
+
+namespace swath::bench {
+
+Status bench_culling(Figures& figures, const Effort& effort) {
+    const SteadyClock clock;
+    CullingBench bench{figures, effort, clock};
+    for (Status (*const part)(CullingBench&) : {bench_trees, bench_objects, bench_sorts, bench_loaded})
+        if (const auto status = part(bench); !status) return status;
+    if (effort.out.empty()) return {};
+    for (Status (*const draw)(CullingBench&) :
+         {draw_time_over_nodes, draw_idle_time, draw_walk, draw_time_over_resources})
+        if (const auto status = draw(bench); !status) return status;
+    return {};
+}
+
+}  // namespace swath::bench

@@ -1,0 +1,43 @@
+#pragma once
+#include <string>
+
+#include "common/base/clock.h"
+#include "common/base/thread_team.h"
+#include "tests/bench/culling_race.h"
+#include "tests/bench/culling_scenes.h"
+#include "tests/bench/figures.h"
+
+// The parts of bench_culling(). Errors: ways to cull that do not agree, or a plot that cannot be drawn.
+namespace swath::bench {
+
+struct CullingBench {
+    Figures& figures;
+    const Effort& effort;
+    const Clock& clock;
+    ThreadTeam one{1, clock};
+    ThreadTeam two{2, clock};
+
+    int repetitions(int full) const { return effort.smoke ? 1 : full; }
+    int height(int full) const { return effort.smoke ? full - 3 : full; }
+    std::size_t count(std::size_t full) const { return effort.smoke ? full / 200 : full; }
+};
+
+// same_nodes_*, a2ssb_2t, early_out_*.
+Status bench_trees(CullingBench& bench);
+// objects_*, cull_sort_1m.
+Status bench_objects(CullingBench& bench);
+// sort_1m_vs_std.
+Status bench_sorts(CullingBench& bench);
+// loaded_vs_1t.
+Status bench_loaded(CullingBench& bench);
+
+// Pictures, with their numbers as CSV, into `bench.effort.out`: what both papers leave as future work.
+Status draw_time_over_nodes(CullingBench& bench);
+Status draw_idle_time(CullingBench& bench);
+Status draw_walk(CullingBench& bench);
+Status draw_time_over_resources(CullingBench& bench);
+
+// (shader, texture, mesh) of each object at random, as keys of a space of `points` points.
+std::vector<std::uint32_t> random_keys(std::size_t count, std::uint64_t points, unsigned seed);
+
+}  // namespace swath::bench

@@ -1,0 +1,40 @@
+#include "tests/bench/culling_plots.h"
+
+#include <map>
+
+#include "common/base/csv.h"
+#include "common/base/file.h"
+
+namespace swath::bench {
+
+Status draw_with_csv(const sim::Plot& plot, const std::filesystem::path& stem) {
+    std::string csv = csv_field(plot.x_label);
+    std::map<double, std::vector<std::string>> rows;
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+        csv += ',' + csv_field(plot.series[i].name);
+        for (const auto& [x, y] : plot.series[i].points) {
+            auto& row = rows[x];
+            row.resize(plot.series.size());
+            row[i] = fmt::format("{:.6g}", y);
+        }
+    }
+    csv += '\n';
+    for (const auto& [x, values] : rows) {
+        csv += fmt::format("{:.10g}", x);
+        for (const std::string& value : values) csv += ',' + value;
+        csv += '\n';
+    }
+    if (const auto status = write_file(stem.string() + ".csv", csv); !status) return status;
+    return sim::draw(plot, stem);
+}
+
+std::string short_number(std::uint64_t number) {
+    if (number < 1000) return std::to_string(number);
+    const bool millions = number >= 1'000'000;
+    const double value = static_cast<double>(number) / (millions ? 1e6 : 1e3);
+    std::string text = value < 10 ? fmt::format("{:.1f}", value) : fmt::format("{:.0f}", value);
+    if (text.ends_with(".0")) text.resize(text.size() - 2);
+    return text + (millions ? 'M' : 'k');
+}
+
+}  // namespace swath::bench

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <random>
+
+#include "common/resource/resource_array.h"
+#include "common/resource/resource_sorter.h"
+#include "tests/bench/culling_bench.h"
+#include "tests/bench/culling_plots.h"
+
+namespace swath::bench {
+namespace {
+
+constexpr std::uint64_t kPoints = 8 * 256 * 64;  // shaders, textures, meshes
+
+// About `visible` of `count` ids, ascending.
+std::vector<std::uint32_t> some_of(std::size_t count, std::size_t visible, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<std::uint32_t> ids;
+    for (std::size_t i = 0; i < count; ++i)
+        if (random() % count < visible) ids.push_back(static_cast<std::uint32_t>(i));
+    return ids;
+}
+
+// As one would: key and id in 64 bits.
+class StdSort {
+  public:
+    explicit StdSort(std::span<const std::uint32_t> keys) : keys_(keys) {}
+    std::span<const std::uint32_t> sort(std::span<const std::uint32_t> visible) {
+        packed_.clear();
+        for (const std::uint32_t id : visible) packed_.push_back(std::uint64_t{keys_[id]} << 32 | id);
+        std::sort(packed_.begin(), packed_.end());
+        sorted_.clear();
+        for (const std::uint64_t both : packed_) sorted_.push_back(static_cast<std::uint32_t>(both));
+        return sorted_;
+    }
+
+  private:
+    std::span<const std::uint32_t> keys_;
+    std::vector<std::uint64_t> packed_;
+    std::vector<std::uint32_t> sorted_;
+};
+
+// All ways to sort objects of the same keys, on one thread.
+class Sorts {
+  public:
+    static Result<std::unique_ptr<Sorts>> make(std::vector<std::uint32_t> keys, std::uint64_t points,
+                                               ThreadTeam& team) {
+        auto sorts = std::unique_ptr<Sorts>(new Sorts(std::move(keys), points, team));
+        auto literal = LiteralSort::make(sorts->keys_, points, team);
+        if (!literal) return tl::unexpected(literal.error());
+        sorts->literal_ = std::make_unique<LiteralSort>(std::move(*literal));
+        return sorts;
+    }
+    Result<Race> race(const std::string& scene, std::span<const std::uint32_t> visible, int repetitions) {
+        Race race("sorting, " + scene, scene);
+        const auto add = [&](const char* name, auto& sort) {
+            race.add(name, [&sort, visible] { return sort.sort(visible); });
+        };
+        add("std::sort", std_);
+        add("literal R and M", *literal_);
+        add("counting", counting_);
+        add("radix", radix_);
+        add("bitmap", bitmap_);
+        add("chosen", chosen_);
+        if (const auto status = race.check(Race::Order::kSame); !status)
+            return tl::unexpected(status.error());
+        race.run(repetitions);
+        return race;
+    }
+    SortMethod method_for(std::size_t visible) const { return chosen_.method_for(visible); }
+
+  private:
+    Sorts(std::vector<std::uint32_t> keys, std::uint64_t points, ThreadTeam& team)
+        : keys_(std::move(keys)),
+          std_(keys_),
+          counting_(keys_, points, team),
+          radix_(keys_, points, team),
+          chosen_(keys_, team),
+          bitmap_(chosen_.order(), team) {}
+
+    std::vector<std::uint32_t> keys_;
+    StdSort std_;
+    std::unique_ptr<LiteralSort> literal_;
+    CountingSort counting_;
+    RadixSort radix_;
+    ResourceSorter chosen_;
+    RankBitmap bitmap_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> random_keys(std::size_t count, std::uint64_t points, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<std::uint32_t> keys(count);
+    for (std::uint32_t& key : keys) key = static_cast<std::uint32_t>(random() % points);
+    return keys;
+}
+
+Status bench_sorts(CullingBench& bench) {
+    const std::size_t count = bench.count(1'000'000);
+    const auto sorts = Sorts::make(random_keys(count, kPoints, 1), kPoints, bench.one);
+    if (!sorts) return tl::unexpected(sorts.error());
+    std::vector<double> least;
+    std::string scene;
+    std::vector<Race> races;
+    for (const std::size_t per_mille : {1, 9, 90, 330, 990}) {
+        const auto visible = some_of(count, count * per_mille / 1000, 2);
+        const SortMethod method = (*sorts)->method_for(visible.size());
+        const auto race =
+            (*sorts)->race(fmt::format("chosen: {}", name_of(method)), visible, bench.repetitions(9));
+        if (!race) return tl::unexpected(race.error());
+        races.push_back(*race);
+        // A frame of a thousand objects is no matter of sorting.
+        const auto ratios = race->ratios("std::sort", "chosen");
+        if (per_mille >= 90 && (least.empty() || median(ratios) < median(least))) {
+            least = ratios;
+            scene = fmt::format("{} visible", visible.size());
+        }
+    }
+    bench.figures.note(
+        table(fmt::format("Sorting some of {} objects by {} points, one thread", count, kPoints), races));
+    bench.figures.add(
+        "sort_1m_vs_std", least, "x",
+        fmt::format("at least 15: std::sort / ours, the worst of 90, 330, 990 of 1000 visible ({})", scene));
+    return {};
+}
+
+Status draw_time_over_resources(CullingBench& bench) {
+    const std::size_t count = bench.count(1'000'000);
+    for (const auto& [share, per_mille] : {std::pair{"9 %", 90}, std::pair{"0.9 %", 9}}) {
+        const auto visible = some_of(count, count * static_cast<std::size_t>(per_mille) / 1000, 2);
+        sim::Plot plot;
+        plot.title = fmt::format("Sorting {} visible of a million objects", share);
+        plot.x_label = "points of the resource space";
+        plot.y_label = "ms";
+        plot.log2_x = plot.log10_y = true;
+        for (const char* name : {"std::sort", "literal R and M", "counting", "radix", "bitmap", "chosen"})
+            plot.series.push_back({name, {}});
+        for (int bits = 4; bits <= (bench.effort.smoke ? 8 : 20); bits += 2) {
+            const std::uint64_t points = std::uint64_t{1} << bits;
+            plot.x_tics.emplace_back(points, short_number(points));
+            const auto sorts = Sorts::make(random_keys(count, points, 1), points, bench.one);
+            if (!sorts) return tl::unexpected(sorts.error());
+            const auto race = (*sorts)->race(short_number(points), visible, bench.repetitions(5));
+            if (!race) return tl::unexpected(race.error());
+            for (sim::Series& series : plot.series)
+                series.points.emplace_back(points, race->us(series.name) / 1000);
+        }
+        const auto stem = fmt::format("time_over_resources_{}", per_mille);
+        if (const auto status = draw_with_csv(plot, bench.effort.out / stem); !status) return status;
+    }
+    return {};
+}
+
+}  // namespace swath::bench
