@@ -36,6 +36,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     std::string background = "101218";
     std::string algorithm = "hybrid";
     std::string renderer = "osmesa";
+    std::string cull = "wide";
     std::string format = "png";
     std::vector<std::string> servers;
     std::string display;
@@ -66,6 +67,9 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--renderer", renderer, "osmesa, or egl (surfaceless)")
         ->capture_default_str()
         ->check(CLI::IsMember({"osmesa", "egl"}));
+    app.add_option("--cull", cull,
+                   "how servers find what they draw: " + cull_algorithm_names() + " (all of their part)")
+        ->capture_default_str();
     auto* objects = app.add_option("--objects", options.granularity.objects,
                                    "cut the model into about this many objects [1500]")
                         ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
@@ -112,6 +116,9 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     const auto parsed = parse_algorithm(algorithm);
     if (!parsed) return refuse(parsed.error());
     options.algorithm = *parsed;
+    const auto parsed_cull = parse_cull_algorithm(cull);
+    if (!parsed_cull) return refuse({"--cull: " + parsed_cull.error().message});
+    options.cull = *parsed_cull;
     if (renderer == "egl") options.renderer = RendererKind::kEgl;
     if (octree->count() > 0) options.granularity.depth = depth;
     if (frame_count->count() > 0) options.frames = frames;

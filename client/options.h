@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "client/partition/partitioner.h"
+#include "common/cull/cull_algorithm.h"
 #include "common/image/picture.h"
 #include "common/program/program.h"
 #include "common/render/renderer_kind.h"
@@ -21,6 +22,7 @@ struct ClientOptions {
     std::optional<Address> display;
     Algorithm algorithm = Algorithm::kHybrid;
     RendererKind renderer = RendererKind::kOsmesa;
+    CullAlgorithm cull = CullAlgorithm::kWide;
     Granularity granularity;
     int width = 1280;
     int height = 960;

@@ -73,9 +73,17 @@ Status run_client(const ClientOptions& options) {
 
     Result<std::vector<FrameTimeline>> frames = fail("nothing was rendered");
     if (options.single) {
-        frames = render_single({&scene, options.renderer, std::move(*cameras), options.width, options.height,
-                                options.background, options.format},
-                               clock, on_picture);
+        SingleJob job;
+        job.scene = &scene;
+        job.renderer = options.renderer;
+        job.cull = options.cull;
+        job.cull_threads = drawing_threads(options.threads);
+        job.cameras = std::move(*cameras);
+        job.width = options.width;
+        job.height = options.height;
+        job.background = options.background;
+        job.format = options.format;
+        frames = render_single(job, clock, on_picture);
     } else {
         std::unique_ptr<LocalCluster> local;
         ClusterJob job;
@@ -94,6 +102,7 @@ Status run_client(const ClientOptions& options) {
         job.scene = &scene;
         job.blob = std::move(blob);
         job.renderer = options.renderer;
+        job.cull = options.cull;
         job.algorithm = options.algorithm;
         job.cameras = std::move(*cameras);
         job.width = options.width;

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
     if (!address) return usage_error({"--listen: " + address.error().message});
     options.listen = *address;
     options.cache = cache;
+    options.cull_threads = drawing_threads(threads);
     set_raster_threads(threads);
     tune_allocator();
 

@@ -16,6 +16,7 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
       clock_(clock),
       handlers_(std::move(handlers)),
       partitioner_(make_partitioner(job_.algorithm, job_.scene->objects)),
+      costs_(job_.scene->objects),
       model_triangles_(job_.scene->mesh.triangle_count()),
       digest_(digest(job_.blob.bytes())),
       director_(job_.cameras.size(), job_.frames_in_flight) {
@@ -99,6 +100,7 @@ void ClusterRun::set_up() {
     setup.blob_bytes = job_.blob.size();
     setup.octree_depth = job_.scene->depth;
     setup.renderer = job_.renderer;
+    setup.cull = job_.cull;
     for (const Address& address : job_.servers) setup.servers.push_back(to_string(address));
     setup.display = to_string(job_.display);
     setup.frames_in_flight = job_.frames_in_flight;
@@ -134,7 +136,7 @@ Status ClusterRun::on_message(std::size_t i, Message&& message, Buffer&& body) {
     }
     if (const auto* report = std::get_if<ServerReport>(&message);
         report != nullptr && peer.role == Role::kServer)
-        return on_report(i, *report, body);
+        return on_server_report(i, *report);
     if (const auto* report = std::get_if<DisplayReport>(&message);
         report != nullptr && peer.role == Role::kDisplay)
         return on_report(i, *report, body);
@@ -197,7 +199,7 @@ Status ClusterRun::issue(FrameNumber number) {
     std::vector<Span> spans;
     PhaseTimer timer(clock_, spans);
     const View view = make_view(job_.cameras[number], job_.width, job_.height);
-    const auto projected = project(job_.scene->objects, view);
+    const auto projected = project(job_.scene->objects, view, Accounting::kCluster, costs_.costs());
     const FramePlan plan = partitioner_->partition({number, view, projected, job_.servers.size()});
     if (const auto wrong = problem(plan, job_.scene->objects.size(), grouping_of(job_.algorithm)))
         throw CheckFailed(fmt::format("frame {}: {}", number, *wrong));
@@ -226,13 +228,15 @@ Status ClusterRun::issue(FrameNumber number) {
             peers_[i].role == Role::kDisplay ? "display" : server_name(server_id(i));
 
     // A server without pixels takes no part in the frame.
-    std::size_t working = 0;
+    std::map<ServerId, std::vector<ObjectId>> groups;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         if (tasks[i].content.empty() && tasks[i].final_region.empty()) continue;
-        ++working;
         if (const auto status = offer(peers_[i], tasks[i]); !status)
             return fail_in(peers_[i].who, status.error());
+        groups[server_id(i)] = std::move(tasks[i].group);
     }
+    const std::size_t working = groups.size();
+    costs_.on_issued(number, std::move(groups));
     if (const auto status = offer(peers_.back(), assemble); !status)
         return fail_in(peers_.back().who, status.error());
     frame.missing = working + 1;
@@ -240,6 +244,12 @@ Status ClusterRun::issue(FrameNumber number) {
     frame.timeline.machines[0].spans = std::move(spans);
     director_.on_issued(number, working);
     return {};
+}
+
+Status ClusterRun::on_server_report(std::size_t i, const ServerReport& report) {
+    if (const auto status = costs_.on_report(report.frame, server_id(i), report.visible); !status)
+        return status;
+    return on_report(i, report, {});
 }
 
 Status ClusterRun::on_report(std::size_t i, const Report& report, const Buffer& body) {

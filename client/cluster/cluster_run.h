@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/director/director.h"
+#include "client/partition/object_costs.h"
 #include "client/partition/partitioner.h"
 #include "common/base/buffer.h"
 #include "common/base/clock.h"
@@ -28,6 +29,7 @@ struct ClusterJob {
     const ObjectSet* scene = nullptr;
     Buffer blob;  // the model for servers that lack it
     RendererKind renderer = RendererKind::kOsmesa;
+    CullAlgorithm cull = CullAlgorithm::kWide;
     Algorithm algorithm = Algorithm::kHybrid;
     std::vector<Camera> cameras;  // a frame each
     int width = 1280;
@@ -74,6 +76,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Status on_message(std::size_t peer, Message&& message, Buffer&& body);
     Status send_model_part(const Peer& peer, std::uint64_t offset);
     Status on_ready(Peer& peer, const Ready& ready);
+    Status on_server_report(std::size_t peer, const ServerReport& report);
     Status on_report(std::size_t peer, const Report& report, const Buffer& body);
     Status run(const Director::Actions& actions);
     Status issue(FrameNumber frame);
@@ -87,6 +90,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Handlers handlers_;
     std::vector<Peer> peers_;  // the servers, then the display
     std::unique_ptr<Partitioner> partitioner_;
+    ObjectCosts costs_;
     std::size_t model_triangles_ = 0;
     Digest digest_;  // made before the network runs: a large model takes a while
     Director director_;

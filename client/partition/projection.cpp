@@ -32,8 +32,9 @@ Rect border_pixel(const Box& box, const View& view) {
 
 }  // namespace
 
-std::vector<ProjectedObject> project(std::span<const Object> objects, const View& view,
-                                     Accounting accounting) {
+std::vector<ProjectedObject> project(std::span<const Object> objects, const View& view, Accounting accounting,
+                                     std::span<const std::uint32_t> costs) {
+    if (!costs.empty()) CHECK(costs.size() == objects.size());
     CHECK(view.width > 0);
     CHECK(view.height > 0);
     const ScreenBounds bounds(view);
@@ -42,7 +43,8 @@ std::vector<ProjectedObject> project(std::span<const Object> objects, const View
         ProjectedObject& object = projected[i];
         object.box = bounds.of(objects[i].box);
         object.visible = !object.box.empty();
-        if (object.visible || accounting == Accounting::kPaper) object.work = objects[i].triangle_count;
+        if (object.visible || accounting == Accounting::kPaper)
+            object.work = costs.empty() ? objects[i].triangle_count : costs[i];
         if (!object.visible) object.box = border_pixel(objects[i].box, view);
     }
     return projected;

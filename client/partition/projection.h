@@ -12,7 +12,7 @@ namespace swath {
 // An object as a partitioner sees it.
 struct ProjectedObject {
     Rect box;                // pixels, never empty, within the viewport
-    std::uint64_t work = 0;  // triangles to draw
+    std::uint64_t work = 0;  // triangles to draw, as far as is known
     bool visible = false;    // else `box` is only the pixel where the sweep meets it, and it draws nothing
     bool operator==(const ProjectedObject&) const = default;
 };
@@ -22,8 +22,11 @@ struct ProjectedObject {
 enum class Accounting { kCluster, kPaper };
 
 // Where each object shows on the screen: its screen_bounds, or for one that cannot be seen a single pixel of
-// the border, nearest to its centre. The view must have at least one pixel. O(objects).
+// the border, nearest to its centre. `costs` are the triangles that each is expected to cost if it can be
+// seen (see ObjectCosts); where there are none, all that it has. The view must have at least one pixel.
+// O(objects).
 std::vector<ProjectedObject> project(std::span<const Object> objects, const View& view,
-                                     Accounting accounting = Accounting::kCluster);
+                                     Accounting accounting = Accounting::kCluster,
+                                     std::span<const std::uint32_t> costs = {});
 
 }  // namespace swath

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "common/cull/frustum_cull.h"
+#include "common/cull/leaf_cull.h"
 #include "common/image/pixel_codec.h"
 #include "common/timeline/phase_timer.h"
 
@@ -14,6 +14,8 @@ Result<std::vector<FrameTimeline>> render_single(
     auto renderer = make_renderer(job.renderer, *job.scene);
     if (!renderer) return tl::unexpected(renderer.error());
     std::vector<ObjectId> all(job.scene->objects.size());
+    ThreadTeam team(job.cull_threads, clock);
+    LeafCull cull(job.cull, *job.scene, team);
     std::iota(all.begin(), all.end(), ObjectId{0});
 
     std::vector<FrameTimeline> timelines;
@@ -23,12 +25,13 @@ Result<std::vector<FrameTimeline>> render_single(
         machine.machine = kSingleMachine;
         PhaseTimer timer(clock, machine.spans);
         const View view = make_view(job.cameras[number], job.width, job.height);
-        const auto visible = cull(job.scene->objects, all, view);
-        machine[Counter::kObjects] = visible.size();
-        for (const ObjectId id : visible)
-            machine[Counter::kTriangles] += job.scene->objects[id].triangle_count;
+        const DrawList list = cull.cull(all, view, view.viewport());
+        machine[Counter::kTriangles] = list.triangles;
+        machine[Counter::kObjects] = list.objects;
+        machine[Counter::kLeaves] = list.leaves;
+        machine[Counter::kSplitLevel] = static_cast<std::uint64_t>(list.split_level.value_or(0));
         timer.end(Phase::kCull);
-        if (const auto status = (*renderer)->draw(visible, view, view.viewport()); !status)
+        if (const auto status = (*renderer)->draw(list.runs, view, view.viewport()); !status)
             return tl::unexpected(status.error());
         timer.end(Phase::kRender);
         pixels.reshape(view.viewport());

@@ -4,6 +4,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/result.h"
+#include "common/cull/cull_algorithm.h"
 #include "common/geometry/camera.h"
 #include "common/image/picture.h"
 #include "common/render/renderer.h"
@@ -17,6 +18,8 @@ namespace swath {
 struct SingleJob {
     const ObjectSet* scene = nullptr;
     RendererKind renderer = RendererKind::kOsmesa;
+    CullAlgorithm cull = CullAlgorithm::kWide;
+    std::size_t cull_threads = 1;
     std::vector<Camera> cameras;
     int width = 1280;
     int height = 960;

@@ -6,6 +6,7 @@
 
 #include "common/base/check.h"
 #include "common/cull/published/octree_culler.h"
+#include "common/cull/wide/wide_culler.h"
 
 namespace swath {
 namespace {
@@ -20,21 +21,6 @@ class NoCuller final : public Culler {
 
   private:
     std::vector<std::uint32_t> all_;
-};
-
-class LoopCuller final : public Culler {
-  public:
-    explicit LoopCuller(std::span<const Box> boxes) : boxes_(boxes.begin(), boxes.end()) {}
-    std::span<const std::uint32_t> cull(const Frustum& frustum) override {
-        visible_.clear();
-        for (std::size_t i = 0; i < boxes_.size(); ++i)
-            if (!outside(frustum, boxes_[i])) visible_.push_back(static_cast<std::uint32_t>(i));
-        return visible_;
-    }
-
-  private:
-    std::vector<Box> boxes_;
-    std::vector<std::uint32_t> visible_;
 };
 
 }  // namespace
@@ -72,7 +58,7 @@ Result<CullAlgorithm> parse_cull_algorithm(std::string_view name) {
 std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box> boxes, ThreadTeam& team) {
     switch (algorithm) {
         case CullAlgorithm::kWide:
-            return std::make_unique<LoopCuller>(boxes);
+            return std::make_unique<WideCuller>(boxes, team);
         case CullAlgorithm::kA2ssb:
             return make_octree_culler(PublishedAlgorithm::kAlgo1Lanes, boxes, team);
         case CullAlgorithm::kAdsb:

@@ -4,11 +4,9 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 
-#include "common/base/result.h"
 #include "common/base/thread_team.h"
+#include "common/cull/cull_algorithm.h"
 #include "common/geometry/box.h"
 #include "common/geometry/frustum.h"
 
@@ -25,18 +23,6 @@ class Culler {
     // The level of the octree at which the last call shared out its work, of algorithms that have one.
     virtual std::optional<int> split_level() const { return std::nullopt; }
 };
-
-enum class CullAlgorithm {
-    kWide,   // the best we know: a hierarchy of 16 children a node, tested at once
-    kA2ssb,  // adaptive two-step static balancing over a uniform octree
-    kAdsb,   // adaptive delayed static balancing over a uniform octree
-    kNone,   // everything may be seen
-};
-
-// "wide", "a2ssb", "adsb", "none".
-std::string_view name_of(CullAlgorithm algorithm);
-std::string cull_algorithm_names();  // with commas between
-Result<CullAlgorithm> parse_cull_algorithm(std::string_view name);
 
 // Copies what it needs of `boxes`, which should come in an order in which neighbours are near (as leaves of
 // an ObjectSet do): any order is right, but a bad one is slow. At most 2^31 boxes.

@@ -4,11 +4,13 @@
 #include <spdlog/spdlog.h>
 
 #include <unistd.h>
+#include <algorithm>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <thread>
 
 namespace swath {
 namespace asio = boost::asio;
@@ -39,6 +41,11 @@ void add_threads_option(CLI::App& app, int& threads) {
 
 void set_raster_threads(int threads) {
     if (threads >= 0) ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+}
+
+std::size_t drawing_threads(int threads) {
+    if (threads < 0) return std::max(1u, std::thread::hardware_concurrency());
+    return static_cast<std::size_t>(threads) + 1;
 }
 
 void start_log(const std::string& program, const ProgramOptions& options) {

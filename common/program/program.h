@@ -1,6 +1,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
+#include <cstddef>
 #include <string>
 
 #include "common/program/cli.h"
@@ -22,6 +23,8 @@ void add_lifeline_option(CLI::App& app, ProgramOptions& options);  // for progra
 // first context: the threads that llvmpipe adds to the one that draws (-1: its own choice, one a core).
 void add_threads_option(CLI::App& app, int& threads);
 void set_raster_threads(int threads);
+// How many threads that makes, the drawing one among them: so many may cull together too. At least 1.
+std::size_t drawing_threads(int threads);
 
 // Log lines go to stderr, prefixed by the program.
 void start_log(const std::string& program, const ProgramOptions& options);

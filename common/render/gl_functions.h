@@ -42,6 +42,7 @@ namespace swath {
     X(GetString, GETSTRING)                             \
     X(GetUniformLocation, GETUNIFORMLOCATION)           \
     X(LinkProgram, LINKPROGRAM)                         \
+    X(MultiDrawElements, MULTIDRAWELEMENTS)             \
     X(PixelStorei, PIXELSTOREI)                         \
     X(ReadBuffer, READBUFFER)                           \
     X(ReadPixels, READPIXELS)                           \

@@ -151,7 +151,7 @@ Status GlRenderer::resize(int width, int height) {
     return check("making the framebuffer");
 }
 
-Status GlRenderer::draw(std::span<const ObjectId> objects, const View& view, const Rect& rect) {
+Status GlRenderer::draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) {
     if (view.width != width_ || view.height != height_) {
         if (const auto status = resize(view.width, view.height); !status) return status;
     }
@@ -162,16 +162,36 @@ Status GlRenderer::draw(std::span<const ObjectId> objects, const View& view, con
     gl_.ClearBufferfv(GL_DEPTH, 0, &far);
     gl_.UniformMatrix4fv(clip_from_model_, 1, GL_FALSE, &view.clip_from_model[0][0]);
     gl_.Uniform3f(to_light_, view.to_light.x, view.to_light.y, view.to_light.z);
-    for (const ObjectId id : objects) {
-        CHECK(id < scene_.objects.size());
-        const Object& object = scene_.objects[id];
-        gl_.Uniform1ui(object_, id);
-        gl_.DrawElements(
-            GL_TRIANGLES, static_cast<GLsizei>(3 * object.triangle_count), GL_UNSIGNED_INT,
-            reinterpret_cast<const void*>(std::size_t{3} * sizeof(std::uint32_t) * object.first_triangle));
+    for (std::size_t begin = 0; begin < runs.size();) {
+        std::size_t end = begin + 1;
+        while (end < runs.size() && runs[end].object == runs[begin].object) ++end;
+        draw_object(runs.subspan(begin, end - begin));
+        begin = end;
     }
     gl_.Finish();
     return check("drawing");
+}
+
+// All runs are of one object, which is one call: its id is the same for all.
+void GlRenderer::draw_object(std::span<const DrawRun> runs) {
+    const ObjectId id = runs.front().object;
+    CHECK(id < scene_.objects.size());
+    const Object& object = scene_.objects[id];
+    counts_.clear();
+    positions_.clear();
+    for (const DrawRun& run : runs) {
+        CHECK(run.first_triangle >= object.first_triangle);
+        CHECK(run.first_triangle + run.triangle_count <= object.first_triangle + object.triangle_count);
+        counts_.push_back(static_cast<GLsizei>(3 * run.triangle_count));
+        positions_.push_back(
+            reinterpret_cast<const void*>(std::size_t{3} * sizeof(std::uint32_t) * run.first_triangle));
+    }
+    gl_.Uniform1ui(object_, id);
+    if (runs.size() == 1)
+        gl_.DrawElements(GL_TRIANGLES, counts_[0], GL_UNSIGNED_INT, positions_[0]);
+    else
+        gl_.MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, positions_.data(),
+                              static_cast<GLsizei>(runs.size()));
 }
 
 Status GlRenderer::read(const Rect& rect, PixelFrame& frame) {

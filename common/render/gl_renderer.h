@@ -1,6 +1,8 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "common/render/gl_context.h"
 #include "common/render/gl_functions.h"
@@ -9,13 +11,13 @@
 namespace swath {
 
 // The rasteriser behind OSMesa and EGL: one framebuffer object with RGBA8 colour, R32UI object id and D32F
-// depth, one draw call an object. Bits are kept equal across servers by drawing with the full viewport and
-// limiting with the scissor, by GL_LESS and by ascending ids (docs/design.md, "Exactness").
+// depth, at most one draw call an object. Bits are kept equal across servers by drawing with the full
+// viewport and limiting with the scissor, by GL_LESS and by ascending ids (docs/design.md, "Exactness").
 class GlRenderer final : public Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> make(std::unique_ptr<GlContext> context, const ObjectSet& scene);
 
-    Status draw(std::span<const ObjectId> objects, const View& view, const Rect& rect) override;
+    Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override;
     Status read(const Rect& rect, PixelFrame& frame) override;
     std::string description() const override;
 
@@ -24,6 +26,7 @@ class GlRenderer final : public Renderer {
     Status make_program();
     Status upload();
     Status resize(int width, int height);
+    void draw_object(std::span<const DrawRun> runs);
     Status check(const char* what) const;
 
     std::unique_ptr<GlContext> context_;  // its objects die with it
@@ -37,6 +40,8 @@ class GlRenderer final : public Renderer {
     GLint clip_from_model_ = -1;
     GLint to_light_ = -1;
     GLint object_ = -1;
+    std::vector<GLsizei> counts_;         // of the runs of one object
+    std::vector<const void*> positions_;  // in the index buffer
 };
 
 }  // namespace swath

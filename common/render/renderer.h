@@ -3,11 +3,11 @@
 #include <span>
 #include <string>
 
-#include "common/base/ids.h"
 #include "common/base/result.h"
 #include "common/geometry/camera.h"
 #include "common/image/pixel_frame.h"
 #include "common/render/renderer_kind.h"
+#include "common/scene/draw_run.h"
 #include "common/scene/objects.h"
 
 namespace swath {
@@ -19,9 +19,10 @@ class Renderer {
   public:
     virtual ~Renderer() = default;
 
-    // Draws `objects` (ascending ids) with the view's full viewport, limited to `rect`. Blocks until it is
-    // drawn. A nearer fragment wins; of equal depths the one drawn first, so the smaller id.
-    virtual Status draw(std::span<const ObjectId> objects, const View& view, const Rect& rect) = 0;
+    // Draws `runs` (of ascending triangles, each inside of its object) with the view's full viewport, limited
+    // to `rect`. Blocks until it is drawn. A nearer fragment wins; of equal depths the one drawn first, so
+    // the smaller id.
+    virtual Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) = 0;
 
     // Colour, depth and id of `rect` of the last draw, into `frame`, which must contain it.
     virtual Status read(const Rect& rect, PixelFrame& frame) = 0;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -89,6 +90,7 @@ Status append(Mesh& mesh, const aiScene& scene, const aiMesh& part, const Placem
                             face.mIndices[corner], part.mNumVertices);
             mesh.indices.push_back(first + face.mIndices[corner]);
         }
+        mesh.materials.push_back(part.mMaterialIndex);
     }
     return {};
 }
@@ -114,6 +116,9 @@ Result<Mesh> flatten(const aiScene& scene) {
             open.push_back({child, visit.transform * child->mTransformation});
         }
     }
+    // A model of one material is the same as one that names none.
+    if (std::ranges::adjacent_find(mesh.materials, std::ranges::not_equal_to()) == mesh.materials.end())
+        mesh.materials.clear();
     return mesh;
 }
 

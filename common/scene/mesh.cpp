@@ -45,6 +45,15 @@ Status validate(const Mesh& mesh) {
         return fail("{} indices out of range, the first in triangle {}: {} of {} vertices", outside.count,
                     outside.first / 3, mesh.indices[outside.first], mesh.vertices.size());
 
+    if (!mesh.materials.empty() && mesh.materials.size() != mesh.triangle_count())
+        return fail("{} material numbers for {} triangles", mesh.materials.size(), mesh.triangle_count());
+    Tally unknown;
+    for (std::size_t t = 0; t < mesh.materials.size(); ++t)
+        if (mesh.materials[t] >= kMaxMaterials) unknown.add(t);
+    if (unknown.count > 0)
+        return fail("{} material numbers out of range, the first of triangle {}: {}, the limit is {}",
+                    unknown.count, unknown.first, mesh.materials[unknown.first], kMaxMaterials - 1);
+
     Tally wild;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         const glm::vec3& p = mesh.vertices[i].position;

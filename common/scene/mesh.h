@@ -23,19 +23,24 @@ static_assert(sizeof(Vertex) == 24);
 struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
+    // What each triangle is drawn with, as numbers of the model's own; empty: all with one, number 0.
+    std::vector<std::uint32_t> materials;
 
     std::size_t triangle_count() const { return indices.size() / 3; }
+    std::uint32_t material(std::size_t triangle) const { return materials.empty() ? 0 : materials[triangle]; }
     bool operator==(const Mesh&) const = default;
 };
 
 // The limits of a mesh: indices are 32 bits, and a triangle count fits in 31.
 inline constexpr std::size_t kMaxVertices = 0xffff'fff0;
 inline constexpr std::size_t kMaxTriangles = 0x7fff'fff0;
+inline constexpr std::uint32_t kMaxMaterials = 1u << 20;  // numbers are below it
 // The largest size of a coordinate: the squared diagonal of a model of this size still fits in a float.
 inline constexpr float kMaxCoordinate = 1e18f;
 
 // Why this mesh cannot be rendered, as one line, or success: no triangles, an index out of range, a
-// coordinate that is not finite or above kMaxCoordinate. The line says how many there are and names the
+// coordinate that is not finite or above kMaxCoordinate, a material number for some triangles only or above
+// its limit. The line says how many there are and names the
 // first. Zero-area triangles and unreferenced vertices are allowed.
 Status validate(const Mesh& mesh);
 

@@ -15,15 +15,35 @@ static_assert(std::endian::native == std::endian::little,
               "the blob is the memory of a little-endian machine");
 
 constexpr std::string_view kMagic = "SWMB";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct Header {
     char magic[4];
     std::uint32_t version;
     std::uint64_t vertices;
     std::uint64_t indices;
+    std::uint64_t materials;
 };
-static_assert(sizeof(Header) == 24);
+static_assert(sizeof(Header) == 32);
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
+    return values.size() * sizeof(T);
+}
+
+// Copies them behind what `to` points at, which moves on. (To void: GLM's vectors have assignments of their
+// own, which do no more than copy the bytes.)
+template <class T>
+void put(const std::vector<T>& values, std::uint8_t*& to) {
+    if (!values.empty()) std::memcpy(to, values.data(), bytes_of(values));
+    to += bytes_of(values);
+}
+template <class T>
+void get(const std::uint8_t*& from, std::uint64_t count, std::vector<T>& values) {
+    values.resize(count);
+    if (count > 0) std::memcpy(static_cast<void*>(values.data()), from, bytes_of(values));
+    from += bytes_of(values);
+}
 
 }  // namespace
 
@@ -39,14 +59,14 @@ Buffer write_blob(const Mesh& mesh) {
     header.version = kVersion;
     header.vertices = mesh.vertices.size();
     header.indices = mesh.indices.size();
-    const std::size_t vertex_bytes = mesh.vertices.size() * sizeof(Vertex);
-    const std::size_t index_bytes = mesh.indices.size() * sizeof(std::uint32_t);
+    header.materials = mesh.materials.size();
 
-    Buffer blob(sizeof(header) + vertex_bytes + index_bytes);
+    Buffer blob(sizeof(header) + bytes_of(mesh.vertices) + bytes_of(mesh.indices) + bytes_of(mesh.materials));
     std::memcpy(blob.data(), &header, sizeof(header));
-    if (vertex_bytes > 0) std::memcpy(blob.data() + sizeof(header), mesh.vertices.data(), vertex_bytes);
-    if (index_bytes > 0)
-        std::memcpy(blob.data() + sizeof(header) + vertex_bytes, mesh.indices.data(), index_bytes);
+    std::uint8_t* to = blob.data() + sizeof(header);
+    put(mesh.vertices, to);
+    put(mesh.indices, to);
+    put(mesh.materials, to);
     return blob;
 }
 
@@ -67,25 +87,24 @@ Result<Mesh> read_blob(std::span<const std::uint8_t> bytes) {
         return fail("model blob: does not start with {}", kMagic);
     if (header.version != kVersion)
         return fail("model blob: version {}, this program reads {}", header.version, kVersion);
-    // With both counts below their limits the sum of the sizes cannot overflow 64 bits.
+    // With all counts below their limits the sum of the sizes cannot overflow 64 bits.
     if (header.vertices > kMaxVertices)
         return fail("model blob: {} vertices, the limit is {}", header.vertices, kMaxVertices);
     if (header.indices > 3 * kMaxTriangles)
         return fail("model blob: {} indices, the limit is {}", header.indices, 3 * kMaxTriangles);
-    const std::uint64_t vertex_bytes = header.vertices * sizeof(Vertex);
-    const std::uint64_t index_bytes = header.indices * sizeof(std::uint32_t);
-    const std::uint64_t expected = sizeof(header) + vertex_bytes + index_bytes;
+    if (header.materials > kMaxTriangles)
+        return fail("model blob: {} material numbers, the limit is {}", header.materials, kMaxTriangles);
+    const std::uint64_t expected = sizeof(header) + header.vertices * sizeof(Vertex) +
+                                   (header.indices + header.materials) * sizeof(std::uint32_t);
     if (bytes.size() != expected)
-        return fail("model blob: {} bytes, {} vertices and {} indices need {}", bytes.size(), header.vertices,
-                    header.indices, expected);
+        return fail("model blob: {} bytes, {} vertices, {} indices and {} material numbers need {}",
+                    bytes.size(), header.vertices, header.indices, header.materials, expected);
 
     Mesh mesh;
-    mesh.vertices.resize(header.vertices);
-    mesh.indices.resize(header.indices);
-    const std::uint8_t* body = bytes.data() + sizeof(header);
-    // (To void: GLM's vectors have assignments of their own, which do no more than copy the bytes.)
-    if (vertex_bytes > 0) std::memcpy(static_cast<void*>(mesh.vertices.data()), body, vertex_bytes);
-    if (index_bytes > 0) std::memcpy(mesh.indices.data(), body + vertex_bytes, index_bytes);
+    const std::uint8_t* from = bytes.data() + sizeof(header);
+    get(from, header.vertices, mesh.vertices);
+    get(from, header.indices, mesh.indices);
+    get(from, header.materials, mesh.materials);
     if (const Status status = validate(mesh); !status) return fail_in("model blob", status.error());
     return mesh;
 }

@@ -2,38 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/geometry/morton.h"
 
 namespace swath {
 namespace {
 
 constexpr int kCodeBits = 3 * kMaxOctreeDepth;
-constexpr double kCells = 1 << kMaxOctreeDepth;  // an axis
+static_assert(kMaxOctreeDepth == kMortonDepth);
 
 // A triangle and the Morton code of its centre.
 struct Key {
     std::uint32_t code;
     std::uint32_t triangle;
 };
-
-// Spreads the low ten bits: bit i goes to bit 3 i.
-std::uint32_t spread(std::uint32_t bits) {
-    bits = (bits | bits << 16) & 0x030000ff;
-    bits = (bits | bits << 8) & 0x0300f00f;
-    bits = (bits | bits << 4) & 0x030c30c3;
-    bits = (bits | bits << 2) & 0x09249249;
-    return bits;
-}
-
-// In double the sums and quotients of floats are as good as exact, so that which side of a cell's border a
-// centre falls on is a property of the model and not of rounding.
-std::uint32_t cell(double centre, double min, double size) {
-    if (!(size > 0)) return 0;  // a flat axis
-    const double at = (centre - min) / size * kCells;
-    return static_cast<std::uint32_t>(std::clamp(at, 0.0, kCells - 1));
-}
 
 std::vector<Key> morton_keys(const Mesh& mesh, const Box& box) {
     const glm::dvec3 min(box.min);
@@ -44,35 +29,47 @@ std::vector<Key> morton_keys(const Mesh& mesh, const Box& box) {
         for (std::size_t corner = 0; corner < 3; ++corner)
             triangle.extend(mesh.vertices[mesh.indices[3 * t + corner]].position);
         const glm::dvec3 centre = 0.5 * (glm::dvec3(triangle.min) + glm::dvec3(triangle.max));
-        keys[t].code = spread(cell(centre.x, min.x, size.x)) | spread(cell(centre.y, min.y, size.y)) << 1 |
-                       spread(cell(centre.z, min.z, size.z)) << 2;
+        keys[t].code = morton_code(centre, min, size);
         keys[t].triangle = static_cast<std::uint32_t>(t);
     }
     return keys;
 }
 
-// Stable, least significant digit first: triangles of one code keep the model's order.
-void radix_sort(std::vector<Key>& keys) {
+// Sorts by the lowest `bits` bits of a number of each key. Stable, least significant digit first.
+template <class Number>
+void radix_sort(std::vector<Key>& keys, int bits, const Number& number) {
     constexpr int kDigitBits = 10;
     constexpr std::uint32_t kMask = (1u << kDigitBits) - 1;
     std::vector<Key> other(keys.size());
-    for (int shift = 0; shift < kCodeBits; shift += kDigitBits) {
+    for (int shift = 0; shift < bits; shift += kDigitBits) {
         std::array<std::size_t, (1u << kDigitBits)> place{};
-        for (const Key& key : keys) ++place[key.code >> shift & kMask];
+        for (const Key& key : keys) ++place[number(key) >> shift & kMask];
         std::size_t sum = 0;
         for (std::size_t& p : place) sum += std::exchange(p, sum);
-        for (const Key& key : keys) other[place[key.code >> shift & kMask]++] = key;
+        for (const Key& key : keys) other[place[number(key) >> shift & kMask]++] = key;
         keys.swap(other);
     }
 }
 
-// The depth asked for, or the one whose number of occupied cells is closest to the number asked for; the
-// shallower of two that are equally close.
-int choose_depth(const std::vector<Key>& keys, const Granularity& granularity) {
+// By material, then by code; triangles of one code keep the model's order.
+void sort(std::vector<Key>& keys, const Mesh& mesh) {
+    radix_sort(keys, kCodeBits, [](const Key& key) { return key.code; });
+    if (mesh.materials.empty()) return;
+    const std::uint32_t last = *std::ranges::max_element(mesh.materials);
+    radix_sort(keys, std::bit_width(last), [&](const Key& key) { return mesh.materials[key.triangle]; });
+}
+
+// The depth asked for, or the one whose number of objects, that is of occupied cells of each material, is
+// closest to the number asked for; the shallower of two that are equally close.
+int choose_depth(const std::vector<Key>& keys, const Mesh& mesh, const Granularity& granularity) {
     if (granularity.depth) return *granularity.depth;
     std::array<std::size_t, kMaxOctreeDepth + 1> cells{};
     cells.fill(1);
     for (std::size_t i = 1; i < keys.size(); ++i) {
+        if (mesh.material(keys[i - 1].triangle) != mesh.material(keys[i].triangle)) {
+            for (std::size_t& count : cells) ++count;
+            continue;
+        }
         const std::uint32_t difference = keys[i - 1].code ^ keys[i].code;
         for (int depth = kMaxOctreeDepth; depth > 0 && difference >> (kCodeBits - 3 * depth) != 0; --depth)
             ++cells[static_cast<std::size_t>(depth)];
@@ -95,7 +92,9 @@ Mesh reorder(const Mesh& mesh, const std::vector<Key>& keys) {
     Mesh result;
     result.indices.reserve(mesh.indices.size());
     result.vertices.reserve(mesh.vertices.size());
+    result.materials.reserve(mesh.materials.size());
     for (const Key& key : keys) {
+        if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[key.triangle]);
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t old = mesh.indices[3 * std::size_t{key.triangle} + corner];
             if (numbers[old] == kUnused) {
@@ -108,6 +107,31 @@ Mesh reorder(const Mesh& mesh, const std::vector<Key>& keys) {
     return result;
 }
 
+// The box of `count` triangles from `first` on.
+Box box_of(const Mesh& mesh, std::uint32_t first, std::uint32_t count) {
+    Box box;
+    for (std::size_t i = 3 * std::size_t{first}; i < 3 * (std::size_t{first} + count); ++i)
+        box.extend(mesh.vertices[mesh.indices[i]].position);
+    return box;
+}
+
+// Cuts the object's triangles, whose range is known, into leaves of even size.
+void add_leaves(ObjectSet& set, Object& object, std::uint32_t leaf_triangles) {
+    const std::uint64_t count = object.triangle_count;
+    const std::uint64_t leaves = (count + leaf_triangles - 1) / leaf_triangles;
+    object.first_leaf = static_cast<std::uint32_t>(set.leaves.size());
+    object.leaf_count = static_cast<std::uint32_t>(leaves);
+    for (std::uint64_t i = 0; i < leaves; ++i) {
+        const auto begin = static_cast<std::uint32_t>(count * i / leaves);
+        const auto end = static_cast<std::uint32_t>(count * (i + 1) / leaves);
+        Leaf& leaf = set.leaves.emplace_back();
+        leaf.first_triangle = object.first_triangle + begin;
+        leaf.triangle_count = end - begin;
+        leaf.box = box_of(set.mesh, leaf.first_triangle, leaf.triangle_count);
+        object.box.extend(leaf.box);
+    }
+}
+
 }  // namespace
 
 ObjectSet build_objects(Mesh mesh, const Granularity& granularity) {
@@ -115,24 +139,29 @@ ObjectSet build_objects(Mesh mesh, const Granularity& granularity) {
     CHECK(mesh.triangle_count() <= kMaxTriangles);
     CHECK(granularity.depth.value_or(0) >= 0);
     CHECK(granularity.depth.value_or(0) <= kMaxOctreeDepth);
+    CHECK(granularity.leaf_triangles > 0u);
 
     ObjectSet set;
     set.bounds = bounds(mesh);
     std::vector<Key> keys = morton_keys(mesh, set.bounds);
-    radix_sort(keys);
-    set.depth = choose_depth(keys, granularity);
+    sort(keys, mesh);
+    set.depth = choose_depth(keys, mesh, granularity);
     set.mesh = reorder(mesh, keys);
 
     const int shift = kCodeBits - 3 * set.depth;
+    const auto begins = [&](std::size_t t) {
+        return t == 0 || keys[t].code >> shift != keys[t - 1].code >> shift ||
+               set.mesh.material(t) != set.mesh.material(t - 1);
+    };
     for (std::size_t t = 0; t < keys.size(); ++t) {
-        if (t == 0 || keys[t].code >> shift != keys[t - 1].code >> shift)
-            set.objects.push_back(
-                {.first_triangle = static_cast<std::uint32_t>(t), .triangle_count = 0, .box = {}});
-        Object& object = set.objects.back();
-        ++object.triangle_count;
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            object.box.extend(set.mesh.vertices[set.mesh.indices[3 * t + corner]].position);
+        if (begins(t)) {
+            Object& object = set.objects.emplace_back();
+            object.first_triangle = static_cast<std::uint32_t>(t);
+            object.material = set.mesh.material(t);
+        }
+        ++set.objects.back().triangle_count;
     }
+    for (Object& object : set.objects) add_leaves(set, object, granularity.leaf_triangles);
     return set;
 }
 

@@ -158,6 +158,14 @@ std::string table(const std::vector<Row>& rows) {
     return text;
 }
 
+// A frame's, of all machines.
+double count(const Summary& summary, Counter counter) {
+    double sum = 0;
+    for (const Summary::Machine& machine : summary.machines)
+        sum += machine.mean_count[static_cast<std::size_t>(counter)] * static_cast<double>(machine.frames);
+    return summary.frames > 0 ? sum / static_cast<double>(summary.frames) : 0;
+}
+
 }  // namespace
 
 Summary summarise(std::span<const FrameTimeline> frames) {
@@ -211,6 +219,9 @@ std::string to_text(const Summary& summary) {
     std::string text = summary.machines.empty() ? "" : table(rows_of(summary)) + '\n';
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "frames     {}, {:.2f} frames/s\n", summary.frames, summary.frames_per_s);
+    if (const double triangles = count(summary, Counter::kTriangles); triangles > 0)
+        fmt::format_to(out, "drawn      {:.0f} triangles of {:.0f} objects a frame\n", triangles,
+                       count(summary, Counter::kObjects));
     fmt::format_to(out, "swapped    {:.0f} pixels, {:.1f} KiB a frame\n", summary.swap_pixels,
                    summary.swap_bytes / 1024);
     fmt::format_to(out, "tiles      {:.1f} KiB a frame\n", summary.tile_bytes / 1024);

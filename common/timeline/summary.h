@@ -35,7 +35,7 @@ Summary summarise(std::span<const FrameTimeline> frames);
 
 // The table as text of at most 100 columns: a row per machine and a column per phase, without phases that
 // nobody spent time in; of more than 16 servers only their mean, minimum and maximum. Below it the run's
-// numbers.
+// numbers; triangles only where somebody counted some.
 std::string to_text(const Summary& summary);
 
 }  // namespace swath

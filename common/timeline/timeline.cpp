@@ -13,8 +13,9 @@ constexpr std::array<std::string_view, kPhaseCount> kPhaseNames{
 static_assert(static_cast<std::size_t>(Phase::kWait) + 1 == kPhaseCount);
 
 constexpr std::array<std::string_view, kCounterCount> kCounterNames{
-    "triangles", "objects", "swap_pixels", "swap_bytes", "tile_pixels", "tile_bytes", "received_pixels"};
-static_assert(static_cast<std::size_t>(Counter::kReceivedPixels) + 1 == kCounterCount);
+    "triangles",  "objects",         "swap_pixels", "swap_bytes", "tile_pixels",
+    "tile_bytes", "received_pixels", "leaves",      "split_level"};
+static_assert(static_cast<std::size_t>(Counter::kSplitLevel) + 1 == kCounterCount);
 
 constexpr std::string_view kServerPrefix = "server ";
 

@@ -14,7 +14,7 @@ namespace swath {
 // docs/design.md).
 enum class Phase : std::uint8_t {
     kPartition,   // client: objects and camera to a plan
-    kCull,        // server: objects of the group against the frustum
+    kCull,        // server: leaves of the group's objects against the content's frustum
     kRender,      // server: drawing until it is finished
     kPixelRead,   // server: colour, depth and id to host memory
     kSwap,        // server: coding and sending swath pixels to peers
@@ -37,8 +37,10 @@ enum class Counter : std::uint8_t {
     kTilePixels,      // server: active pixels sent to the display
     kTileBytes,       // server: bytes of that message, framing included
     kReceivedPixels,  // server: active pixels merged
+    kLeaves,          // server: drawn after culling
+    kSplitLevel,      // server: of the octree, where culling was shared out; 0 also where nothing was
 };
-inline constexpr std::size_t kCounterCount = 7;
+inline constexpr std::size_t kCounterCount = 9;
 std::string_view name(Counter counter);  // "triangles", "objects", "swap_pixels", ...
 
 // One stretch of one phase. Times are on the client's clock.

@@ -86,6 +86,7 @@ struct Encoder {
         out.set_blob_bytes(m.blob_bytes);
         out.set_octree_depth(static_cast<std::uint32_t>(m.octree_depth));
         out.set_renderer(static_cast<std::uint32_t>(m.renderer));
+        out.set_cull(static_cast<std::uint32_t>(m.cull) + 1);
         for (const std::string& s : m.servers) out.add_servers(s);
         out.set_display(m.display);
         out.set_frames_in_flight(m.frames_in_flight);
@@ -137,7 +138,11 @@ struct Encoder {
     }
     void operator()(const SwathPixels& m) const { put_pixels(m, *head.mutable_swath()); }
     void operator()(const TilePixels& m) const { put_pixels(m, *head.mutable_tile()); }
-    void operator()(const ServerReport& m) const { put_report(m, *head.mutable_server_report()); }
+    void operator()(const ServerReport& m) const {
+        pb::Report& out = *head.mutable_server_report();
+        put_report(m, out);
+        out.mutable_visible()->Add(m.visible.begin(), m.visible.end());
+    }
     void operator()(const DisplayReport& m) const { put_report(m, *head.mutable_display_report()); }
     void operator()(const Failed& m) const {
         head.mutable_failed()->set_what(m.what.substr(0, kMaxNameBytes));
@@ -221,7 +226,7 @@ Status check_text(const std::string& text, const char* field) {
 }
 
 template <class M>
-Result<Message> get_report(const pb::Report& in) {
+Result<M> get_report(const pb::Report& in) {
     M m;
     m.frame = in.frame();
     if (in.spans_size() > 4096) return fail("spans: {}, the limit is 4096", in.spans_size());
@@ -237,6 +242,15 @@ Result<Message> get_report(const pb::Report& in) {
         return fail("counters: {} where {} are expected", in.counters_size(), kCounterCount);
     for (int i = 0; i < in.counters_size(); ++i) m.counters[static_cast<std::size_t>(i)] = in.counters(i);
     return m;
+}
+
+Result<Message> get_server_report(const pb::Report& in) {
+    if (static_cast<std::size_t>(in.visible_size()) > kMaxVisibleCounts)
+        return fail("visible: {} counts, the limit is {}", in.visible_size(), kMaxVisibleCounts);
+    auto report = get_report<ServerReport>(in);
+    if (!report) return tl::unexpected(report.error());
+    report->visible.assign(in.visible().begin(), in.visible().end());
+    return *std::move(report);
 }
 
 template <class M>
@@ -269,6 +283,8 @@ Result<Message> get_server_setup(const pb::ServerSetup& in) {
     m.octree_depth = static_cast<int>(in.octree_depth());
     if (in.renderer() < 1 || in.renderer() > 2) return fail("renderer: {} is none", in.renderer());
     m.renderer = static_cast<RendererKind>(in.renderer());
+    if (in.cull() < 1 || in.cull() > kCullAlgorithmCount) return fail("cull: {} is none", in.cull());
+    m.cull = static_cast<CullAlgorithm>(in.cull() - 1);
     if (in.servers_size() < 1 || static_cast<std::size_t>(in.servers_size()) > kMaxServers)
         return fail("servers: {}, the limits are 1 and {}", in.servers_size(), kMaxServers);
     for (const std::string& s : in.servers()) {
@@ -409,7 +425,7 @@ Result<Message> get_message(const pb::Head& head) {
         case pb::Head::kTile:
             return get_pixels<TilePixels>(head.tile());
         case pb::Head::kServerReport:
-            return get_report<ServerReport>(head.server_report());
+            return get_server_report(head.server_report());
         case pb::Head::kDisplayReport:
             return get_report<DisplayReport>(head.display_report());
         case pb::Head::kFailed:

@@ -7,6 +7,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/ids.h"
+#include "common/cull/cull_algorithm.h"
 #include "common/geometry/camera.h"
 #include "common/geometry/rect.h"
 #include "common/image/picture.h"
@@ -23,6 +24,8 @@ namespace swath {
 // whoever uses it.
 
 inline constexpr std::uint32_t kMaxFramesInFlight = 8;
+// At up to five bytes each they leave room in a message's head for the rest.
+inline constexpr std::size_t kMaxVisibleCounts = std::size_t{1} << 19;
 
 enum class Role : std::uint32_t { kClient = 1, kServer = 2, kDisplay = 3 };
 std::string_view name(Role role);
@@ -59,6 +62,7 @@ struct ServerSetup {
     std::uint64_t blob_bytes = 0;
     int octree_depth = 0;
     RendererKind renderer = RendererKind::kOsmesa;
+    CullAlgorithm cull = CullAlgorithm::kWide;
     std::vector<std::string> servers;  // "host:port" by ServerId
     std::string display;
     std::uint32_t frames_in_flight = 2;
@@ -148,6 +152,9 @@ struct Report {
     bool operator==(const Report&) const = default;
 };
 struct ServerReport : Report {
+    // For each object of the frame's group how many of its triangles were left after culling; or none at all:
+    // nothing was culled, or they would be more than kMaxVisibleCounts.
+    std::vector<std::uint32_t> visible;
     bool operator==(const ServerReport&) const = default;
 };
 struct DisplayReport : Report {

@@ -2,7 +2,6 @@
 
 #include <new>
 
-#include "common/cull/frustum_cull.h"
 #include "common/timeline/phase_timer.h"
 
 namespace swath {
@@ -23,20 +22,21 @@ DrawThread::~DrawThread() {
     gone.wait(lock, [&] { return done; });
 }
 
-void DrawThread::load(Mesh mesh, int octree_depth, RendererKind kind,
+void DrawThread::load(Mesh mesh, int octree_depth, CullAlgorithm cull, RendererKind kind,
                       std::function<void(Result<Loaded>)> done) {
-    thread_.post(
-        [this, mesh = std::make_shared<Mesh>(std::move(mesh)), octree_depth, kind, done = std::move(done)] {
-            try {
-                scene_ = build_objects(std::move(*mesh), {octree_depth, 0});
-                auto renderer = factory_(kind, scene_);
-                if (!renderer) return done(tl::unexpected(renderer.error()));
-                renderer_ = std::move(*renderer);
-                done(Loaded{scene_.objects.size(), scene_.mesh.triangle_count(), renderer_->description()});
-            } catch (const std::bad_alloc&) {
-                done(fail("not enough memory for the model"));
-            }
-        });
+    thread_.post([this, mesh = std::make_shared<Mesh>(std::move(mesh)), octree_depth, cull, kind,
+                  done = std::move(done)] {
+        try {
+            scene_ = build_objects(std::move(*mesh), {octree_depth, 0});
+            cull_ = std::make_unique<LeafCull>(cull, scene_, team_);
+            auto renderer = factory_(kind, scene_);
+            if (!renderer) return done(tl::unexpected(renderer.error()));
+            renderer_ = std::move(*renderer);
+            done(Loaded{scene_.objects.size(), scene_.mesh.triangle_count(), renderer_->description()});
+        } catch (const std::bad_alloc&) {
+            done(fail("not enough memory for the model"));
+        }
+    });
 }
 
 void DrawThread::draw(DrawJob job, std::function<void(Drawn)> done) {
@@ -54,13 +54,10 @@ void DrawThread::draw(DrawJob job, std::function<void(Drawn)> done) {
 Drawn DrawThread::draw_now(DrawJob job) {
     Drawn out;
     PhaseTimer timer(clock_, out.spans);
-    const std::vector<ObjectId> visible =
-        job.content.empty() ? std::vector<ObjectId>{} : cull(scene_.objects, job.group, job.view);
-    out.objects = visible.size();
-    for (const ObjectId id : visible) out.triangles += scene_.objects[id].triangle_count;
+    out.list = cull_->cull(job.group, job.view, job.content);
     timer.end(Phase::kCull);
 
-    if (!job.content.empty()) out.status = renderer_->draw(visible, job.view, job.content);
+    if (!job.content.empty()) out.status = renderer_->draw(out.list.runs, job.view, job.content);
     timer.end(Phase::kRender);
 
     // The frame covers what was drawn and what will be received; the latter starts as background.

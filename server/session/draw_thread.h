@@ -6,7 +6,9 @@
 
 #include "common/base/clock.h"
 #include "common/base/result.h"
+#include "common/base/thread_team.h"
 #include "common/base/worker_thread.h"
+#include "common/cull/leaf_cull.h"
 #include "common/image/pixel_frame.h"
 #include "common/render/renderer.h"
 #include "common/scene/objects.h"
@@ -25,8 +27,7 @@ struct DrawJob {
 struct Drawn {
     PixelFrame pixels;
     std::vector<Span> spans;  // cull, render, pixel read
-    std::uint64_t objects = 0;
-    std::uint64_t triangles = 0;
+    DrawList list;
     Status status;
 };
 struct Loaded {
@@ -42,13 +43,16 @@ using RendererFactory = std::function<Result<std::unique_ptr<Renderer>>(Renderer
 // THAT THREAD, which post them on. Destroying it waits for the job in progress.
 class DrawThread {
   public:
-    DrawThread(RendererFactory factory, const Clock& clock) : factory_(std::move(factory)), clock_(clock) {}
+    // `cull_threads` cull together, this one among them; at least 1.
+    DrawThread(RendererFactory factory, std::size_t cull_threads, const Clock& clock)
+        : factory_(std::move(factory)), clock_(clock), team_(cull_threads, clock) {}
     ~DrawThread();
 
     // Runs something slow that needs no scene, e.g. reading a model.
     void run(std::function<void()> task) { thread_.post(std::move(task)); }
-    // Cuts the mesh into objects and makes the renderer.
-    void load(Mesh mesh, int octree_depth, RendererKind kind, std::function<void(Result<Loaded>)> done);
+    // Cuts the mesh into objects and makes what culls and draws them.
+    void load(Mesh mesh, int octree_depth, CullAlgorithm cull, RendererKind kind,
+              std::function<void(Result<Loaded>)> done);
     void draw(DrawJob job, std::function<void(Drawn)> done);
 
   private:
@@ -56,7 +60,9 @@ class DrawThread {
 
     RendererFactory factory_;
     const Clock& clock_;
+    ThreadTeam team_;                     // of thread_
     ObjectSet scene_;                     // of thread_
+    std::unique_ptr<LeafCull> cull_;      // of thread_
     std::unique_ptr<Renderer> renderer_;  // of thread_
     WorkerThread thread_;                 // last: its tasks use the rest
 };

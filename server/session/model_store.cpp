@@ -31,7 +31,11 @@ std::optional<Mesh> ModelStore::find(const std::string& name, const Digest& want
         return std::nullopt;
     }
     auto mesh = read_blob(blob->bytes());
-    if (!mesh) return std::nullopt;
+    if (!mesh) {
+        spdlog::warn("model cache: {}: {}; fetching the model again", file(wanted).string(),
+                     mesh.error().message);
+        return std::nullopt;
+    }
     return std::move(*mesh);
 } catch (const std::bad_alloc&) {
     spdlog::warn("{}: not enough memory to read it", name);

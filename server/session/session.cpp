@@ -20,7 +20,7 @@ ServerSession::ServerSession(asio::io_context& io, const ServerOptions& options,
       clock_(clock),
       client_(std::move(client)),
       store_(options.cache),
-      draw_thread_(std::make_unique<DrawThread>(std::move(factory), clock)) {}
+      draw_thread_(std::make_unique<DrawThread>(std::move(factory), options.cull_threads, clock)) {}
 
 void ServerSession::stop() {
     client_->finish();
@@ -153,7 +153,7 @@ Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
 
 void ServerSession::load(Mesh mesh) {
     draw_thread_->load(
-        std::move(mesh), setup_.octree_depth, setup_.renderer,
+        std::move(mesh), setup_.octree_depth, setup_.cull, setup_.renderer,
         [self = shared_from_this()](const Result<Loaded>& result) {
             asio::post(self->io_, [self, result] { self->resume([&] { return self->on_loaded(result); }); });
         });
@@ -323,9 +323,12 @@ Status ServerSession::on_drawn(FrameNumber number, Drawn& drawn) {
     ServerReport& report = frame.report;
     report.spans.front().end = drawn.spans.front().begin;
     report.spans.insert(report.spans.end(), drawn.spans.begin(), drawn.spans.end());
-    report[Counter::kObjects] = drawn.objects;
-    report[Counter::kTriangles] = drawn.triangles;
-
+    report[Counter::kTriangles] = drawn.list.triangles;
+    report[Counter::kObjects] = drawn.list.objects;
+    report[Counter::kLeaves] = drawn.list.leaves;
+    report[Counter::kSplitLevel] = static_cast<std::uint64_t>(drawn.list.split_level.value_or(0));
+    if (setup_.cull != CullAlgorithm::kNone && drawn.list.visible.size() <= kMaxVisibleCounts)
+        report.visible = std::move(drawn.list.visible);
     return run(swap_->on_drawn(number));
 }
 

@@ -13,7 +13,8 @@ Result<Picture> render_view(const ObjectSet& scene, const View& view, const Rgb&
     if (!renderer) return tl::unexpected(renderer.error());
     std::vector<ObjectId> all(scene.objects.size());
     std::iota(all.begin(), all.end(), ObjectId{0});
-    if (const auto status = (*renderer)->draw(all, view, view.viewport()); !status)
+    if (const auto status = (*renderer)->draw(whole_objects(scene.objects, all), view, view.viewport());
+        !status)
         return tl::unexpected(status.error());
     PixelFrame pixels;
     pixels.reshape(view.viewport());

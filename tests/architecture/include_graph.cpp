@@ -30,7 +30,7 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     // What travels are the values of the layers below.
     {"common/wire",
      {"common/base", "common/geometry", "common/scene", "common/plan", "common/image", "common/timeline",
-      "common/render"}},
+      "common/render", "common/cull"}},
     // What the mains share.
     {"common/program", {"common/base", "common/image", "common/wire"}},
 };

@@ -12,11 +12,9 @@
 int main(int argc, char** argv) {
     using namespace swath;
     const std::map<std::string, Status (*)(bench::Figures&, const bench::Effort&)> benchmarks{
-        {"cluster", bench::bench_cluster},
-        {"load", bench::bench_load},
-        {"peers", bench::bench_peers},
-        {"simulator", bench::bench_simulator},
-        {"swap", bench::bench_swap}};
+        {"cluster", bench::bench_cluster},     {"culling-render", bench::bench_culling_render},
+        {"load", bench::bench_load},           {"peers", bench::bench_peers},
+        {"simulator", bench::bench_simulator}, {"swap", bench::bench_swap}};
     std::string name;
     std::string json;
     bool smoke = false;
@@ -24,13 +22,14 @@ int main(int argc, char** argv) {
         "swath-bench: every figure that docs/benchmarks.md names, as ratios within one run where that is "
         "possible.\n"
         "  cluster    real processes: CPU of a cluster of one, and speed-up of two, against --single\n"
+        "  culling-render  what culling by leaf saves: triangles and time, from inside and sort-first\n"
         "  load       reading the Dragon and cutting it into objects\n"
         "  peers      ours beside IceT's and OpenSceneGraph's on the Dragon\n"
         "  simulator  all of the paper's Table 1, events and partitions a second\n"
         "  swap       bytes a swapped pixel takes, and how fast pixels are merged\n"};
     app.add_option("NAME", name, "which")
         ->required()
-        ->check(CLI::IsMember({"cluster", "load", "peers", "simulator", "swap"}));
+        ->check(CLI::IsMember({"cluster", "culling-render", "load", "peers", "simulator", "swap"}));
     app.add_option("--json", json, "write {\"figures\": {name: number}} to this file");
     app.add_flag("--smoke", smoke,
                  "a small built-in model, once: to see that it runs; the figures mean nothing");

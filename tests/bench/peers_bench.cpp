@@ -64,9 +64,9 @@ class CachedRenderer final : public Renderer {
   public:
     explicit CachedRenderer(std::unique_ptr<Renderer> renderer) : renderer_(std::move(renderer)) {}
 
-    Status draw(std::span<const ObjectId> objects, const View& view, const Rect& rect) override {
+    Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override {
         key_.assign(reinterpret_cast<const char*>(&view.clip_from_model), sizeof view.clip_from_model);
-        return frames_.contains(key_) ? Status{} : renderer_->draw(objects, view, rect);
+        return frames_.contains(key_) ? Status{} : renderer_->draw(runs, view, rect);
     }
     Status read(const Rect& rect, PixelFrame& frame) override {
         PixelFrame& cached = frames_[key_];

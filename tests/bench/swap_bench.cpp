@@ -5,7 +5,7 @@
 #include "client/partition/partitioner.h"
 #include "client/partition/projection.h"
 #include "client/path/path.h"
-#include "common/cull/frustum_cull.h"
+#include "common/cull/leaf_cull.h"
 #include "common/image/pixel_codec.h"
 #include "common/render/renderer.h"
 #include "common/scene/model.h"
@@ -87,6 +87,9 @@ Status bench_swap(Figures& figures, const Effort& effort) {
     if (!renderer) return tl::unexpected(renderer.error());
 
     const auto partitioner = make_partitioner(Algorithm::kHybrid, scene.objects);
+    const SteadyClock clock;
+    ThreadTeam team(1, clock);
+    LeafCull cull(CullAlgorithm::kWide, scene, team);
     std::vector<double> bytes_a_pixel;
     std::vector<double> ids_a_pixel;
     for (FrameNumber number = 0; number < cameras->size(); ++number) {
@@ -99,9 +102,8 @@ Status bench_swap(Figures& figures, const Effort& effort) {
         PixelFrame frame;
         for (const Transfer& t : transfers(plan)) {
             const ServerShare& share = plan.servers[index(t.from)];
-            if (const auto s = (*renderer)->draw(cull(scene.objects, share.group, view), view, share.content);
-                !s)
-                return s;
+            const DrawList list = cull.cull(share.group, view, share.content);
+            if (const auto s = (*renderer)->draw(list.runs, view, share.content); !s) return s;
             frame.reshape(share.content);
             if (const auto s = (*renderer)->read(share.content, frame); !s) return s;
             Buffer body;

@@ -106,7 +106,7 @@ TEST_F(BadPeer, SecondClientIsToldThatTheServerIsBusy) {
 
 TEST_F(BadPeer, OtherVersionIsNamedWithOurs) {
     const std::string head(8, '\1');
-    expect_one_error(client_of_raw_server(raw_prefix(2, 8, 0) + head), 1, {"version 2", "1"});
+    expect_one_error(client_of_raw_server(raw_prefix(1, 8, 0) + head), 1, {"version 1", "2"});
     expect_one_error(client_of_raw_server(raw_prefix(999, 0, 0)), 1, {"version 999"});
 }
 

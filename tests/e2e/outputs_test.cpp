@@ -113,7 +113,7 @@ TEST_F(Output, JsonTimelineIsATraceWithEveryMachine) {
 TEST_F(Output, SummaryNamesEveryMachineAndWhatWasSwapped) {
     const std::string out = succeed(local_).out;
     for (const char* word : {"client", "display", "server 0", "server 1", "server 2", "frames", "swapped",
-                             "imbalance", "overlap"})
+                             "imbalance", "overlap", "drawn"})
         EXPECT_NE(out.find(word), std::string::npos) << word << "\n" << out;
     EXPECT_NE(succeed(run_ + Arguments{"--single"}).out.find("single"), std::string::npos);
 }

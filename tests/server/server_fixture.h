@@ -17,9 +17,10 @@ namespace swath::test {
 // Draws the first object it is given as a flat rectangle at depth 0.5: colour and id say which object it was.
 class FakeRenderer final : public Renderer {
   public:
-    Status draw(std::span<const ObjectId> objects, const View& view, const Rect& rect) override {
+    Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override {
         if (view.height == 13) return fail("13 rows bring bad luck");
-        objects_.assign(objects.begin(), objects.end());
+        objects_.clear();
+        for (const DrawRun& run : runs) objects_.push_back(run.object);
         rect_ = rect;
         return {};
     }

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <numeric>
+
 #include "tests/server/server_fixture.h"
 
 // Frames: what goes out for a task, and what a client or another server may not send.
@@ -69,6 +71,9 @@ TEST_F(ServerFrames, OfOneServerGoToTheDisplayAndAreReported) {
     EXPECT_EQ(report.frame, 3u);
     EXPECT_EQ(report[Counter::kObjects], objects_);
     EXPECT_EQ(report[Counter::kTriangles], 12u);
+    EXPECT_EQ(report[Counter::kLeaves], objects_);
+    EXPECT_EQ(report.visible.size(), objects_);
+    EXPECT_EQ(std::accumulate(report.visible.begin(), report.visible.end(), 0u), 12u);
     EXPECT_EQ(report[Counter::kTilePixels], 32u);
     EXPECT_EQ(report[Counter::kSwapPixels], 0u);
     Nanoseconds end{0};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/check.h"
 #include "common/geometry/frustum.h"
 #include "tests/client/partition/scenes.h"
 
@@ -40,6 +41,19 @@ TEST(Projection, CountsUnseenTrianglesOnlyInThePapersAccounting) {
     EXPECT_EQ(project_one(object).work, 0u);
     EXPECT_EQ(project_one(object, Accounting::kPaper).work, 33u);
     EXPECT_FALSE(project_one(object, Accounting::kPaper).visible);
+}
+
+TEST(Projection, TakesTheWorkFromTheCostsWhereThereAreSome) {
+    const std::vector<Object> objects{cube({0.1f, 0.2f, 0}, 0.1f, 33), cube({0, 0, 0}, 0.1f, 12),
+                                      cube({30, 0, 0}, 0.1f, 50)};
+    const std::vector<std::uint32_t> costs{20, 7, 50};
+    const auto projected = project(objects, front_view(), Accounting::kCluster, costs);
+    EXPECT_EQ(projected[0].work, 20u);
+    EXPECT_EQ(projected[1].work, 7u);
+    EXPECT_EQ(projected[2].work, 0u);  // cannot be seen
+    EXPECT_EQ(projected[0].box, project(objects, front_view())[0].box);
+    const std::vector<std::uint32_t> too_few{1};
+    EXPECT_THROW(project(objects, front_view(), Accounting::kCluster, too_few), CheckFailed);
 }
 
 TEST(Projection, OfEveryAwkwardObjectLiesOnTheScreen) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "common/base/check.h"
 #include "common/image/pixel_codec.h"
 #include "common/scene/procedural.h"
 
@@ -37,10 +38,10 @@ View view_of(const ObjectSet& scene, int width = kWidth, int height = kHeight) {
     return make_view(camera, width, height);
 }
 
-std::vector<ObjectId> all_of(const ObjectSet& scene) {
+std::vector<DrawRun> all_of(const ObjectSet& scene) {
     std::vector<ObjectId> ids(scene.objects.size());
     for (ObjectId id = 0; id < ids.size(); ++id) ids[id] = id;
-    return ids;
+    return whole_objects(scene.objects, ids);
 }
 
 std::unique_ptr<Renderer> make(const ObjectSet& scene, RendererKind kind = RendererKind::kOsmesa) {
@@ -49,8 +50,8 @@ std::unique_ptr<Renderer> make(const ObjectSet& scene, RendererKind kind = Rende
     return renderer ? std::move(*renderer) : nullptr;
 }
 
-PixelFrame draw(Renderer& renderer, std::span<const ObjectId> objects, const View& view, const Rect& rect) {
-    const Status drawn = renderer.draw(objects, view, rect);
+PixelFrame draw(Renderer& renderer, std::span<const DrawRun> runs, const View& view, const Rect& rect) {
+    const Status drawn = renderer.draw(runs, view, rect);
     EXPECT_TRUE(drawn.has_value()) << drawn.error().message;
     PixelFrame frame;
     frame.reshape(rect);
@@ -60,11 +61,11 @@ PixelFrame draw(Renderer& renderer, std::span<const ObjectId> objects, const Vie
 }
 
 // On a machine of its own, as it were: a renderer is bound to its thread and alone there.
-PixelFrame draw_elsewhere(const ObjectSet& scene, std::span<const ObjectId> objects, const View& view,
+PixelFrame draw_elsewhere(const ObjectSet& scene, std::span<const DrawRun> runs, const View& view,
                           RendererKind kind = RendererKind::kOsmesa) {
     PixelFrame frame;
     std::thread([&] {
-        if (const auto renderer = make(scene, kind)) frame = draw(*renderer, objects, view, view.viewport());
+        if (const auto renderer = make(scene, kind)) frame = draw(*renderer, runs, view, view.viewport());
     }).join();
     return frame;
 }
@@ -96,7 +97,7 @@ class RendererTest : public testing::Test {
   protected:
     explicit RendererTest(const char* model = "knot") : scene_(scene(model, 6000)) {}
     const ObjectSet scene_;
-    const std::vector<ObjectId> all_ = all_of(scene_);
+    const std::vector<DrawRun> all_ = all_of(scene_);
     const View view_ = view_of(scene_);
     std::unique_ptr<Renderer> renderer_ = make(scene_);
 };
@@ -161,6 +162,56 @@ TEST_F(RendererTest, ForgetsTheFrameBefore) {
     EXPECT_EQ(compare(nothing, nothing, view_.viewport()).active, 0);
 }
 
+// Runs of all lengths, so that objects take one call or several.
+std::vector<DrawRun> cut(const std::vector<DrawRun>& runs, std::uint32_t seed) {
+    std::vector<DrawRun> parts;
+    for (DrawRun rest : runs)
+        while (rest.triangle_count > 0) {
+            seed = seed * 1664525 + 1013904223;
+            const std::uint32_t count = std::min(rest.triangle_count, 1 + (seed >> 16) % 8);
+            parts.push_back({rest.object, rest.first_triangle, count});
+            rest.first_triangle += count;
+            rest.triangle_count -= count;
+        }
+    return parts;
+}
+
+TEST_F(RendererTest, DrawsRunsOfAnObjectAsTheObject) {
+    const PixelFrame whole = draw(*renderer_, all_, view_, view_.viewport());
+    for (const std::uint32_t seed : {1u, 2u}) {
+        const std::vector<DrawRun> parts = cut(all_, seed);
+        ASSERT_GT(parts.size(), 2 * all_.size());
+        expect_same(draw(*renderer_, parts, view_, view_.viewport()), whole, view_.viewport());
+    }
+}
+
+TEST_F(RendererTest, LeavesOutTheTrianglesBetweenRuns) {
+    std::vector<DrawRun> parts = cut(all_, 3);
+    std::vector<DrawRun> odd;
+    std::vector<DrawRun> even;
+    for (std::size_t i = 0; i < parts.size(); ++i) (i % 2 == 0 ? even : odd).push_back(parts[i]);
+    const Rect screen = view_.viewport();
+    const PixelFrame whole = draw(*renderer_, all_, view_, screen);
+    PixelFrame frame = draw(*renderer_, even, view_, screen);
+    EXPECT_GT(compare(frame, whole, screen).pixels, 0);
+    const PixelFrame rest = draw(*renderer_, odd, view_, screen);
+    Buffer body;
+    const BodySizes sizes = encode_swath(rest, {screen}, body);
+    ASSERT_TRUE(
+        composite_swath(body.bytes(), sizes, {screen}, static_cast<ObjectId>(scene_.objects.size()), frame)
+            .has_value());
+    EXPECT_EQ(compare(frame, whole, screen).pixels, 0);
+}
+
+TEST_F(RendererTest, DoesNotDrawARunOutsideOfItsObject) {
+    DrawRun run = all_[1];
+    ++run.triangle_count;
+    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{run}, view_, view_.viewport())), CheckFailed);
+    run = all_[1];
+    --run.first_triangle;
+    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{run}, view_, view_.viewport())), CheckFailed);
+}
+
 TEST_F(RendererTest, DrawsAPictureOfOnePixel) {
     const View view = view_of(scene_, 1, 1);
     const PixelFrame one = draw(*renderer_, all_, view, view.viewport());
@@ -186,8 +237,8 @@ class TiesTest : public RendererTest {
     TiesTest() : RendererTest("town") {}
     // Two machines draw disjoint groups; the second's pixels go to the first.
     void expect_composite_is_exact(const std::function<bool(ObjectId)>& is_first) {
-        std::vector<ObjectId> groups[2];
-        for (const ObjectId id : all_) groups[is_first(id) ? 0 : 1].push_back(id);
+        std::vector<DrawRun> groups[2];
+        for (const DrawRun& run : all_) groups[is_first(run.object) ? 0 : 1].push_back(run);
         const Rect screen = view_.viewport();
         const PixelFrame whole = draw(*renderer_, all_, view_, screen);
         PixelFrame first = draw(*renderer_, groups[0], view_, screen);
@@ -203,7 +254,7 @@ class TiesTest : public RendererTest {
 
 TEST_F(TiesTest, OccurBetweenObjects) {
     // Drawn the other way round, the later of two equal depths shows.
-    std::vector<ObjectId> reversed = all_;
+    std::vector<DrawRun> reversed = all_;
     std::reverse(reversed.begin(), reversed.end());
     const PixelFrame up = draw(*renderer_, all_, view_, view_.viewport());
     const PixelFrame down = draw(*renderer_, reversed, view_, view_.viewport());

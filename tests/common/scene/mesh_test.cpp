@@ -51,6 +51,19 @@ TEST(MeshTest, coordinates_that_no_picture_can_hold_are_counted_and_the_first_is
     EXPECT_EQ(why_not(test::cube(kMaxCoordinate)), "valid");
 }
 
+TEST(MeshTest, material_numbers_are_none_or_one_a_triangle_and_below_their_limit) {
+    Mesh mesh = test::cube();
+    EXPECT_EQ(mesh.material(11), 0u);
+    mesh.materials.assign(11, 3);
+    EXPECT_EQ(why_not(mesh), "11 material numbers for 12 triangles");
+    mesh.materials.push_back(kMaxMaterials - 1);
+    EXPECT_EQ(why_not(mesh), "valid");
+    EXPECT_EQ(mesh.material(11), kMaxMaterials - 1);
+    mesh.materials[4] = mesh.materials[9] = kMaxMaterials;
+    EXPECT_EQ(why_not(mesh),
+              "2 material numbers out of range, the first of triangle 4: 1048576, the limit is 1048575");
+}
+
 TEST(MeshTest, triangles_without_area_are_valid) {
     Mesh mesh = test::cube();
     mesh.indices[1] = mesh.indices[0];

@@ -18,7 +18,8 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kVerticesAt = 8;
 constexpr std::size_t kIndicesAt = 16;
-constexpr std::size_t kBodyAt = 24;
+constexpr std::size_t kMaterialsAt = 24;
+constexpr std::size_t kBodyAt = 32;
 
 Bytes cube_blob() {
     const Buffer blob = write_blob(test::cube());
@@ -37,9 +38,12 @@ std::string why_not(const Bytes& bytes) {
 }
 
 TEST(ModelBlobTest, a_mesh_survives_the_round_trip_bit_for_bit) {
-    for (const Mesh& mesh : {test::cube(), test::triangle_soup(1000, 1)}) {
+    Mesh painted = test::cube();
+    for (std::uint32_t t = 0; t < painted.triangle_count(); ++t) painted.materials.push_back(7 * t);
+    for (const Mesh& mesh : {test::cube(), test::triangle_soup(1000, 1), painted}) {
         const Buffer blob = write_blob(mesh);
-        EXPECT_EQ(blob.size(), 24 + 24 * mesh.vertices.size() + 4 * mesh.indices.size());
+        EXPECT_EQ(blob.size(),
+                  32 + 24 * mesh.vertices.size() + 4 * (mesh.indices.size() + mesh.materials.size()));
         const Result<Mesh> again = read_blob(blob.bytes());
         ASSERT_TRUE(again) << again.error().message;
         EXPECT_EQ(*again, mesh);
@@ -65,30 +69,39 @@ TEST(ModelBlobTest, every_prefix_is_refused) {
 TEST(ModelBlobTest, bytes_after_the_end_are_refused) {
     Bytes blob = cube_blob();
     blob.push_back(0);
-    EXPECT_THAT(why_not(blob), HasSubstr("361 bytes, 8 vertices and 36 indices need 360"));
+    EXPECT_THAT(why_not(blob),
+                HasSubstr("369 bytes, 8 vertices, 36 indices and 0 material numbers need 368"));
 }
 
 TEST(ModelBlobTest, another_magic_or_version_is_refused) {
     EXPECT_THAT(why_not(with(cube_blob(), 0, 'X')), HasSubstr("SWMB"));
-    EXPECT_THAT(why_not(with(cube_blob(), kVersionAt, std::uint32_t{2})), HasSubstr("version 2"));
+    EXPECT_EQ(why_not(with(cube_blob(), kVersionAt, std::uint32_t{1})),
+              "model blob: version 1, this program reads 2");
+    EXPECT_THAT(why_not(with(cube_blob(), kVersionAt, std::uint32_t{3})), HasSubstr("version 3"));
 }
 
 TEST(ModelBlobTest, counts_that_overflow_are_refused_by_their_limits) {
     EXPECT_THAT(why_not(with(cube_blob(), kVerticesAt, std::uint64_t{0xffff'fff1})),
                 HasSubstr("the limit is"));
     EXPECT_THAT(why_not(with(cube_blob(), kIndicesAt, ~std::uint64_t{0})), HasSubstr("the limit is"));
+    EXPECT_THAT(why_not(with(cube_blob(), kMaterialsAt, ~std::uint64_t{0})), HasSubstr("the limit is"));
     // 24 * 2^61 and 4 * 2^62 are 0 in 64 bits.
     EXPECT_THAT(why_not(with(cube_blob(), kVerticesAt, std::uint64_t{1} << 61 | 8)),
                 HasSubstr("the limit is"));
     EXPECT_THAT(why_not(with(cube_blob(), kIndicesAt, std::uint64_t{1} << 62 | 36)),
                 HasSubstr("the limit is"));
     EXPECT_THAT(why_not(with(cube_blob(), kVerticesAt, std::uint64_t{4'000'000'000})),
-                HasSubstr("need 96000000168"));
+                HasSubstr("need 96000000176"));
 }
 
 TEST(ModelBlobTest, a_mesh_that_cannot_be_rendered_is_refused) {
     EXPECT_THAT(why_not(with(cube_blob(), kBodyAt, std::uint32_t{0x7fc00000})), HasSubstr("not finite"));
     EXPECT_THAT(why_not(with(cube_blob(), kBodyAt + 8 * 24, std::uint32_t{8})), HasSubstr("out of range"));
+    Mesh painted = test::cube();
+    painted.materials.assign(12, 0);
+    const Buffer blob = write_blob(painted);
+    EXPECT_THAT(why_not(with(Bytes(blob.data(), blob.data() + blob.size()), blob.size() - 4, ~0u)),
+                HasSubstr("1 material numbers out of range"));
     Mesh empty = test::cube();
     empty.indices.clear();
     EXPECT_FALSE(read_blob(write_blob(empty).bytes()));

@@ -123,6 +123,25 @@ TEST(ModelTest, an_objs_vertex_colours_win_over_its_material) {
     EXPECT_EQ(mesh->vertices[0].colour, (Colour{255, 0, 0, 255}));
 }
 
+TEST(ModelTest, triangles_have_the_numbers_of_their_materials_unless_there_is_only_one) {
+    const test::TemporaryFolder folder;
+    folder.write("two.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+    const std::string corners = "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+    const auto mesh =
+        load_model(folder.write("two.obj", corners + "usemtl red\nf 1 2 3\nusemtl blue\nf 2 4 3\nf 1 4 2\n"));
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    ASSERT_EQ(mesh->materials.size(), 3u);
+    for (std::size_t t = 0; t < 3; ++t) {
+        const bool red = mesh->vertices[mesh->indices[3 * t]].colour == Colour{255, 0, 0, 255};
+        EXPECT_EQ(mesh->material(t) == mesh->material(0),
+                  red == (mesh->vertices[mesh->indices[0]].colour == Colour{255, 0, 0, 255}));
+    }
+    EXPECT_NE(mesh->materials.front(), mesh->materials.back());
+    const auto one = load_model(folder.write("one.obj", corners + "usemtl blue\nf 1 2 3\nf 2 4 3\n"));
+    ASSERT_TRUE(one) << one.error().message;
+    EXPECT_TRUE(one->materials.empty());
+}
+
 TEST(ModelTest, an_stl_has_its_facets_normals_and_joined_vertices) {
     const test::TemporaryFolder folder;
     const Result<Mesh> mesh = load_model(folder.write("square.stl", kStl));

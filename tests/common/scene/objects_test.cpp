@@ -24,16 +24,19 @@ ObjectSet by_count(Mesh mesh, std::size_t objects) {
 
 // The numbers of a triangle's three vertices, as something that can be compared.
 using Corners = std::array<std::array<float, 4>, 3>;
-std::map<Corners, int> triangles_of(const Mesh& mesh) {
-    std::map<Corners, int> result;
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-        Corners corners;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Vertex& v = mesh.vertices[mesh.indices[3 * t + c]];
-            corners[c] = {v.position.x, v.position.y, v.position.z, static_cast<float>(v.colour[0])};
-        }
-        ++result[corners];
+Corners corners_of(const Mesh& mesh, std::size_t triangle) {
+    Corners corners;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Vertex& v = mesh.vertices[mesh.indices[3 * triangle + c]];
+        corners[c] = {v.position.x, v.position.y, v.position.z, static_cast<float>(v.colour[0])};
     }
+    return corners;
+}
+
+// How often each triangle of each material is there.
+std::map<std::pair<Corners, std::uint32_t>, int> triangles_of(const Mesh& mesh) {
+    std::map<std::pair<Corners, std::uint32_t>, int> result;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) ++result[{corners_of(mesh, t), mesh.material(t)}];
     return result;
 }
 
@@ -225,6 +228,77 @@ TEST(ObjectsTest, the_same_mesh_gives_the_same_objects) {
     const ObjectSet b = by_count(test::triangle_soup(3000, 7), 200);
     EXPECT_EQ(a.objects, b.objects);
     EXPECT_EQ(a.mesh, b.mesh);
+}
+
+// In no order, with numbers that leave gaps.
+Mesh painted(Mesh mesh, std::uint32_t materials) {
+    mesh.materials.clear();
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+        mesh.materials.push_back((t * 2654435761u >> 8) % materials * 3001);
+    return mesh;
+}
+
+TEST(ObjectsTest, an_object_has_one_material_and_ascending_ids_group_equal_ones) {
+    const Mesh mesh = painted(test::triangle_soup(3000, 7), 9);
+    for (const int depth : {0, 2, 5}) {
+        const ObjectSet set = at_depth(mesh, depth);
+        std::uint32_t last = 0;
+        for (const Object& object : set.objects) {
+            EXPECT_GE(object.material, last);
+            last = object.material;
+            for (std::uint32_t i = 0; i < object.triangle_count; ++i)
+                ASSERT_EQ(set.mesh.material(object.first_triangle + i), object.material);
+        }
+        EXPECT_EQ(set.objects.front().material, 0u);
+        EXPECT_EQ(last, 8u * 3001);
+    }
+    EXPECT_EQ(at_depth(mesh, 0).objects.size(), 9u);
+}
+
+TEST(ObjectsTest, a_model_of_many_materials_keeps_its_order_of_triangles_at_every_depth) {
+    const Mesh mesh = painted(test::triangle_soup(3000, 7), 30);
+    const ObjectSet flat = at_depth(mesh, 0);
+    EXPECT_EQ(triangles_of(flat.mesh), triangles_of(mesh));
+    for (int depth = 1; depth <= kMaxOctreeDepth; ++depth) EXPECT_EQ(at_depth(mesh, depth).mesh, flat.mesh);
+}
+
+TEST(ObjectsTest, a_number_of_objects_counts_cells_of_each_material) {
+    const Mesh mesh = painted(test::triangle_soup(3000, 7), 9);
+    for (const std::size_t wish : {1u, 9u, 40u, 300u, 1500u}) {
+        const ObjectSet set = by_count(mesh, wish);
+        const auto distance = [&](int depth) {
+            const auto count = static_cast<std::ptrdiff_t>(at_depth(mesh, depth).objects.size());
+            return std::abs(count - static_cast<std::ptrdiff_t>(wish));
+        };
+        for (int depth = 0; depth <= kMaxOctreeDepth; ++depth)
+            EXPECT_GE(distance(depth), distance(set.depth)) << wish << " at " << depth;
+    }
+}
+
+TEST(ObjectsTest, leaves_cut_every_object_into_even_runs_with_their_boxes) {
+    for (const std::uint32_t size : {1u, 7u, 256u, 0xffff'ffffu}) {
+        const ObjectSet set =
+            build_objects(painted(test::triangle_soup(3000, 7), 2), {.depth = 2, .leaf_triangles = size});
+        std::uint32_t leaf = 0;
+        std::uint32_t triangle = 0;
+        for (const Object& object : set.objects) {
+            EXPECT_EQ(object.first_leaf, leaf);
+            EXPECT_EQ(object.leaf_count, (std::uint64_t{object.triangle_count} + size - 1) / size);
+            for (; leaf < object.first_leaf + object.leaf_count; ++leaf) {
+                const Leaf& part = set.leaves[leaf];
+                EXPECT_EQ(part.first_triangle, triangle);
+                EXPECT_LE(part.triangle_count, size);
+                EXPECT_GE(part.triangle_count, object.triangle_count / object.leaf_count);
+                Box box;
+                for (std::uint32_t i = 0; i < 3 * part.triangle_count; ++i)
+                    box.extend(set.mesh.vertices[set.mesh.indices[3 * triangle + i]].position);
+                EXPECT_EQ(part.box, box);
+                triangle += part.triangle_count;
+            }
+            EXPECT_EQ(triangle, object.first_triangle + object.triangle_count);
+        }
+        EXPECT_EQ(leaf, set.leaves.size());
+    }
 }
 
 TEST(ObjectsTest, a_depth_out_of_range_is_our_own_mistake) {

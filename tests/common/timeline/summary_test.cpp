@@ -142,6 +142,20 @@ TEST(SummaryText, IsThisTable) {
               "overlap    1.062\n");
 }
 
+TEST(SummaryText, SaysWhatAllMachinesDrewAFrame) {
+    FrameTimeline first = frame(0, {machine("server 0", {span(Phase::kRender, 0, 1)}),
+                                    machine("server 1", {span(Phase::kRender, 0, 1)})});
+    FrameTimeline second = frame(1, {machine("server 0", {span(Phase::kRender, 1, 2)})});
+    first.machines[0][Counter::kTriangles] = 1000;
+    first.machines[1][Counter::kTriangles] = 200;
+    second.machines[0][Counter::kTriangles] = 300;
+    first.machines[0][Counter::kObjects] = 7;
+    second.machines[0][Counter::kObjects] = 3;
+    EXPECT_THAT(to_text(summarise(std::vector{first, second})),
+                HasSubstr("\ndrawn      750 triangles of 5 objects a frame\n"));
+    EXPECT_THAT(to_text(summarise(std::vector{loaded({5})})), Not(HasSubstr("drawn")));
+}
+
 TEST(SummaryText, LeavesOutPhasesThatNobodySpentTimeIn) {
     const std::string text = to_text(summarise(std::vector{loaded({5})}));
     EXPECT_THAT(text, HasSubstr("render"));

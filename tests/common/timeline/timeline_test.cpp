@@ -26,6 +26,8 @@ TEST(Timeline, NamesStandAtTheirEnumerators) {
     EXPECT_EQ(name(Counter::kTriangles), "triangles");
     EXPECT_EQ(name(Counter::kTileBytes), "tile_bytes");
     EXPECT_EQ(name(Counter::kReceivedPixels), "received_pixels");
+    EXPECT_EQ(name(Counter::kLeaves), "leaves");
+    EXPECT_EQ(name(Counter::kSplitLevel), "split_level");
 }
 
 TEST(Timeline, NamingAPhaseOutOfRangeIsABug) {

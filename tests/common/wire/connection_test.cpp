@@ -186,9 +186,9 @@ class StrangerTest : public testing::Test {
 
 TEST_F(StrangerTest, OfAnotherVersionIsToldBothVersions) {
     std::string other = hello();
-    other[4] = 2;
+    other[4] = 1;
     stranger_->send(other);
-    expect_refusal("speaks version 2 of the protocol, this program speaks 1");
+    expect_refusal("speaks version 1 of the protocol, this program speaks 2");
 }
 
 TEST_F(StrangerTest, WhoSpeaksAnotherProtocolIsRefused) {

@@ -89,6 +89,8 @@ TEST(WireLimit, OfServerSetup) {
                  in + "octree_depth: 11, the limit is 10");
     setup.expect([](auto& m) { m.set_renderer(0); }, in + "renderer: 0 is none");
     setup.expect([](auto& m) { m.set_renderer(3); }, in + "renderer: 3 is none");
+    setup.expect([](auto& m) { m.set_cull(0); }, in + "cull: 0 is none");
+    setup.expect([](auto& m) { m.set_cull(5); }, in + "cull: 5 is none");
     setup.expect([](auto& m) { m.clear_servers(); }, in + "servers: 0, the limits are 1 and 1024");
     setup.expect(
         [](auto& m) {
@@ -272,8 +274,11 @@ TEST(WireLimit, OfReports) {
             for (int i = 0; i < 4096; ++i) *m.add_spans() = m.spans(0);
         },
         in + "spans: 4097, the limit is 4096");
-    report.expect([](auto& m) { m.add_counters(1); }, in + "counters: 8 where 7 are expected");
-    report.expect([](auto& m) { m.clear_counters(); }, in + "counters: 0 where 7 are expected");
+    report.expect([](auto& m) { m.add_counters(1); }, in + "counters: 10 where 9 are expected");
+    report.expect([](auto& m) { m.clear_counters(); }, in + "counters: 0 where 9 are expected");
+    report.expect([](auto& m) { m.mutable_visible()->Resize(524'289, 1); },
+                  in + "visible: 524289 counts, the limit is 524288");
+    report.expect([](auto& m) { m.mutable_visible()->Resize(524'288, ~0u); }, "no error");
 }
 
 }  // namespace

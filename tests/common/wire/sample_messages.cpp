@@ -90,6 +90,7 @@ class Maker {
         m.blob_bytes = u64();
         m.octree_depth = static_cast<int>(below(kMaxOctreeDepth + 1));
         m.renderer = below(2) == 0 ? RendererKind::kOsmesa : RendererKind::kEgl;
+        m.cull = static_cast<CullAlgorithm>(below(kCullAlgorithmCount));
         m.display = text();
         m.frames_in_flight = 1 + below(kMaxFramesInFlight);
         return m;
@@ -108,6 +109,12 @@ class Maker {
                                begin + time() / 2, time()});
         }
         for (std::uint64_t& c : m.counters) c = u64();
+        return m;
+    }
+    ServerReport server_report() {
+        auto m = report<ServerReport>();
+        m.visible.resize(below(3) == 0 ? 0 : below(100));
+        for (std::uint32_t& count : m.visible) count = u32() >> below(32);
         return m;
     }
     Hello hello() { return {static_cast<Role>(1 + below(3)), u64(), server(), u32(), u32()}; }
@@ -136,7 +143,7 @@ std::vector<Message> sample_messages(std::uint32_t seed) {
     all.emplace_back(make.assemble_frame());
     all.emplace_back(SwathPixels{make.u64(), make.sizes()});
     all.emplace_back(TilePixels{make.u64(), make.sizes()});
-    all.emplace_back(make.report<ServerReport>());
+    all.emplace_back(make.server_report());
     all.emplace_back(make.report<DisplayReport>());
     all.emplace_back(Failed{make.text()});
     all.emplace_back(Bye{});

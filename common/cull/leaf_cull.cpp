@@ -1,0 +1,68 @@
+#include "common/cull/leaf_cull.h"
+
+#include "common/base/check.h"
+#include "common/geometry/frustum.h"
+
+namespace swath {
+namespace {
+
+DrawList whole(const ObjectSet& scene, std::span<const ObjectId> group) {
+    DrawList list;
+    list.runs = whole_objects(scene.objects, group);
+    list.objects = group.size();
+    list.visible.reserve(group.size());
+    for (const ObjectId id : group) {
+        const Object& object = scene.objects[id];
+        list.visible.push_back(object.triangle_count);
+        list.leaves += object.leaf_count;
+        list.triangles += object.triangle_count;
+    }
+    return list;
+}
+
+}  // namespace
+
+LeafCull::LeafCull(CullAlgorithm algorithm, const ObjectSet& scene, ThreadTeam& team) : scene_(scene) {
+    if (algorithm == CullAlgorithm::kNone) return;
+    std::vector<Box> boxes;
+    boxes.reserve(scene.leaves.size());
+    for (const Leaf& leaf : scene.leaves) boxes.push_back(leaf.box);
+    culler_ = make_culler(algorithm, boxes, team);
+}
+
+DrawList LeafCull::cull(std::span<const ObjectId> group, const View& view, const Rect& rect) {
+    if (!group.empty()) CHECK(group.back() < scene_.objects.size());
+    DrawList list;
+    if (rect.empty() || group.empty()) {
+        list.visible.resize(group.size());
+        return list;
+    }
+    if (!culler_) return whole(scene_, group);
+
+    const std::span<const std::uint32_t> leaves = culler_->cull(make_frustum(view, rect, scene_.bounds));
+    list.split_level = culler_->split_level();
+    list.visible.reserve(group.size());
+    std::size_t at = 0;  // both lists ascend
+    for (const ObjectId id : group) {
+        const Object& object = scene_.objects[id];
+        const std::uint32_t end = object.first_leaf + object.leaf_count;
+        std::uint32_t visible = 0;
+        while (at < leaves.size() && leaves[at] < object.first_leaf) ++at;
+        for (; at < leaves.size() && leaves[at] < end; ++at) {
+            const Leaf& leaf = scene_.leaves[leaves[at]];
+            if (visible > 0 &&
+                list.runs.back().first_triangle + list.runs.back().triangle_count == leaf.first_triangle)
+                list.runs.back().triangle_count += leaf.triangle_count;
+            else
+                list.runs.push_back({id, leaf.first_triangle, leaf.triangle_count});
+            visible += leaf.triangle_count;
+            ++list.leaves;
+        }
+        list.visible.push_back(visible);
+        list.triangles += visible;
+        list.objects += visible > 0 ? 1 : 0;
+    }
+    return list;
+}
+
+}  // namespace swath

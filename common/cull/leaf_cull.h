@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/cull/culler.h"
+#include "common/geometry/camera.h"
+#include "common/scene/draw_run.h"
+#include "common/scene/objects.h"
+
+namespace swath {
+
+// What of a group is to be drawn.
+struct DrawList {
+    std::vector<DrawRun> runs;           // ascending; as few as there can be
+    std::vector<std::uint32_t> visible;  // triangles in the runs of each object, by its place in the group
+    std::uint64_t objects = 0;           // that have a run
+    std::uint64_t leaves = 0;
+    std::uint64_t triangles = 0;
+    std::optional<int> split_level;  // as Culler::split_level()
+    bool operator==(const DrawList&) const = default;
+};
+
+// Culls the leaves of a model, frame by frame. One thread at a time; scene and team must outlive it.
+class LeafCull {
+  public:
+    // kNone culls nothing.
+    LeafCull(CullAlgorithm algorithm, const ObjectSet& scene, ThreadTeam& team);
+
+    // Those leaves of `group` (ascending ids, each below the number of objects) that may cover a pixel centre
+    // of `rect`: all but those outside make_frustum(view, rect, bounds of the scene). Nothing if `rect` is
+    // empty. Always culls the whole model, whatever the group: that takes microseconds.
+    DrawList cull(std::span<const ObjectId> group, const View& view, const Rect& rect);
+
+  private:
+    const ObjectSet& scene_;
+    std::unique_ptr<Culler> culler_;  // null: none
+};
+
+}  // namespace swath

@@ -1,0 +1,32 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+namespace swath {
+
+// Numbers that begin at a cache line and are not initialised: a large one costs no memory where nothing was
+// written. Movable, not copied.
+template <class T>
+class AlignedArray {
+  public:
+    static_assert(std::is_trivial_v<T>);
+    AlignedArray() = default;
+    explicit AlignedArray(std::size_t size)
+        : data_(static_cast<T*>(::operator new(size * sizeof(T), kLine))), size_(size) {}
+
+    T* data() { return data_.get(); }
+    const T* data() const { return data_.get(); }
+    std::size_t size() const { return size_; }
+
+  private:
+    static constexpr std::align_val_t kLine{64};
+    struct Release {
+        void operator()(T* data) const { ::operator delete(data, kLine); }
+    };
+    std::unique_ptr<T[], Release> data_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace swath

@@ -1,0 +1,34 @@
+#pragma once
+// What the kernels of the hierarchy and of the octree have in common. As lanes.h, only for kernels.
+#include <cstdint>
+
+#include "common/cull/wide/kernel_planes.h"
+#include "common/cull/wide/lanes.h"
+
+namespace swath::SWATH_KERNEL {
+namespace {
+
+alignas(64) constexpr std::uint32_t kCounting[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+// plane_distance() of frustum.h, for 16 boxes at once: `at` is plane.p or plane.n.
+inline Floats distance(const KernelPlane& plane, const float* block, const std::uint32_t (&at)[3]) {
+    return fused(
+        all(plane.x), load(block + at[0]),
+        fused(all(plane.y), load(block + at[1]), fused(all(plane.z), load(block + at[2]), all(plane.w))));
+}
+
+// The ids [first, last), in steps of 16 and, if no more than 8 are left, of 8: scribbles no further.
+inline std::uint32_t* fill(std::uint32_t first, std::uint32_t last, std::uint32_t* out) {
+    Words ids = add(all(first), load(kCounting));
+    const Words step = all(16u);
+    std::uint32_t* const end = out + (last - first);
+    for (; end - out > 8; out += 16) {
+        store(out, ids);
+        ids = add(ids, step);
+    }
+    if (out < end) store8(out, ids);
+    return end;
+}
+
+}  // namespace
+}  // namespace swath::SWATH_KERNEL

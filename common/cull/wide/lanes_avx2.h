@@ -1,0 +1,131 @@
+#pragma once
+// See lanes.h. Two registers for sixteen lanes.
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace swath::SWATH_KERNEL {
+namespace {
+
+struct Floats {
+    __m256 low;
+    __m256 high;
+};
+struct Words {
+    __m256i low;
+    __m256i high;
+};
+
+inline std::uint32_t sign_bits(__m256 low, __m256 high) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(low)) |
+           static_cast<std::uint32_t>(_mm256_movemask_ps(high)) << 8;
+}
+inline __m256i from_bits(std::uint32_t eight) {
+    const __m256i bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i spread = _mm256_set1_epi32(static_cast<int>(eight));
+    return _mm256_cmpeq_epi32(_mm256_and_si256(spread, bits), bits);
+}
+
+inline Floats load(const float* from) { return {_mm256_loadu_ps(from), _mm256_loadu_ps(from + 8)}; }
+inline Floats all(float value) { return {_mm256_set1_ps(value), _mm256_set1_ps(value)}; }
+inline Floats add(Floats a, Floats b) { return {_mm256_add_ps(a.low, b.low), _mm256_add_ps(a.high, b.high)}; }
+inline Floats multiply(Floats a, Floats b) {
+    return {_mm256_mul_ps(a.low, b.low), _mm256_mul_ps(a.high, b.high)};
+}
+inline Floats fused(Floats a, Floats x, Floats t) {
+    return {_mm256_fmadd_ps(a.low, x.low, t.low), _mm256_fmadd_ps(a.high, x.high, t.high)};
+}
+inline Floats lower_of(Floats a, Floats b) {
+    return {_mm256_min_ps(a.low, b.low), _mm256_min_ps(a.high, b.high)};
+}
+inline Floats higher_of(Floats a, Floats b) {
+    return {_mm256_max_ps(a.low, b.low), _mm256_max_ps(a.high, b.high)};
+}
+inline float lowest(Floats a) {
+    const __m256 eight = _mm256_min_ps(a.low, a.high);
+    __m128 four = _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+    four = _mm_min_ps(four, _mm_movehl_ps(four, four));
+    return _mm_cvtss_f32(_mm_min_ss(four, _mm_movehdup_ps(four)));
+}
+inline float highest(Floats a) {
+    const __m256 eight = _mm256_max_ps(a.low, a.high);
+    __m128 four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+    four = _mm_max_ps(four, _mm_movehl_ps(four, four));
+    return _mm_cvtss_f32(_mm_max_ss(four, _mm_movehdup_ps(four)));
+}
+inline std::uint32_t below_zero(Floats a) {
+    const __m256 zero = _mm256_setzero_ps();
+    return sign_bits(_mm256_cmp_ps(a.low, zero, _CMP_LT_OQ), _mm256_cmp_ps(a.high, zero, _CMP_LT_OQ));
+}
+inline std::uint32_t at_least_zero(Floats a) {
+    const __m256 zero = _mm256_setzero_ps();
+    return sign_bits(_mm256_cmp_ps(a.low, zero, _CMP_GE_OQ), _mm256_cmp_ps(a.high, zero, _CMP_GE_OQ));
+}
+inline Floats where(std::uint32_t mask, Floats then, Floats otherwise) {
+    return {_mm256_blendv_ps(otherwise.low, then.low, _mm256_castsi256_ps(from_bits(mask & 0xff))),
+            _mm256_blendv_ps(otherwise.high, then.high, _mm256_castsi256_ps(from_bits(mask >> 8)))};
+}
+
+inline Words load(const std::uint32_t* from) {
+    return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)),
+            _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from + 8))};
+}
+inline void store(std::uint32_t* to, Words a) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), a.low);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + 8), a.high);
+}
+inline void store(float* to, Floats a) {
+    _mm256_storeu_ps(to, a.low);
+    _mm256_storeu_ps(to + 8, a.high);
+}
+// The first in lanes 0 to 7, the second in lanes 8 to 15.
+inline Words halves(std::uint32_t first, std::uint32_t second) {
+    return {_mm256_set1_epi32(static_cast<int>(first)), _mm256_set1_epi32(static_cast<int>(second))};
+}
+inline Words all(std::uint32_t value) { return halves(value, value); }
+inline Words add(Words a, Words b) {
+    return {_mm256_add_epi32(a.low, b.low), _mm256_add_epi32(a.high, b.high)};
+}
+inline Words both(Words a, Words b) {
+    return {_mm256_and_si256(a.low, b.low), _mm256_and_si256(a.high, b.high)};
+}
+template <int kBits>
+inline Words shift_left(Words a) {
+    return {_mm256_slli_epi32(a.low, kBits), _mm256_slli_epi32(a.high, kBits)};
+}
+template <int kBits>
+inline Words shift_right(Words a) {
+    return {_mm256_srli_epi32(a.low, kBits), _mm256_srli_epi32(a.high, kBits)};
+}
+inline Words set_bits_where(Words a, std::uint32_t mask, std::uint32_t bits) {
+    const __m256i set = _mm256_set1_epi32(static_cast<int>(bits));
+    return {_mm256_or_si256(a.low, _mm256_and_si256(from_bits(mask & 0xff), set)),
+            _mm256_or_si256(a.high, _mm256_and_si256(from_bits(mask >> 8), set))};
+}
+inline std::uint32_t non_zero(Words a) {
+    const __m256i zero = _mm256_setzero_si256();
+    return ~sign_bits(_mm256_castsi256_ps(_mm256_cmpeq_epi32(a.low, zero)),
+                      _mm256_castsi256_ps(_mm256_cmpeq_epi32(a.high, zero))) &
+           0xffff;
+}
+inline Floats to_floats(Words a) { return {_mm256_cvtepi32_ps(a.low), _mm256_cvtepi32_ps(a.high)}; }
+
+inline std::uint32_t* packed_half(std::uint32_t* out, __m256i a, std::uint32_t mask) {
+    // The numbers of the set bits, a byte each.
+    const std::uint64_t bytes = _pdep_u64(mask, 0x0101010101010101) * 0xff;
+    const std::uint64_t lanes = _pext_u64(0x0706050403020100, bytes);
+    const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(lanes)));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_permutevar8x32_epi32(a, order));
+    return out + __builtin_popcount(mask);
+}
+inline std::uint32_t* packed(std::uint32_t* out, Words a, std::uint32_t mask) {
+    return packed_half(packed_half(out, a.low, mask & 0xff), a.high, mask >> 8);
+}
+// The same of lanes 0 to 7 alone: no more than the next 8 places.
+inline void store8(std::uint32_t* to, Words a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), a.low); }
+inline std::uint32_t* packed8(std::uint32_t* out, Words a, std::uint32_t mask) {
+    return packed_half(out, a.low, mask);
+}
+
+}  // namespace
+}  // namespace swath::SWATH_KERNEL

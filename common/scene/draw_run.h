@@ -1,0 +1,28 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/base/ids.h"
+#include "common/scene/objects.h"
+
+namespace swath {
+
+// Triangles of one object that are drawn at once: a range of the index buffer, and the id that they get.
+struct DrawRun {
+    ObjectId object = 0;
+    std::uint32_t first_triangle = 0;
+    std::uint32_t triangle_count = 0;
+    bool operator==(const DrawRun&) const = default;
+};
+
+// A run for each of `ids`, in their order, of all its triangles. Every id must be below objects.size().
+inline std::vector<DrawRun> whole_objects(std::span<const Object> objects, std::span<const ObjectId> ids) {
+    std::vector<DrawRun> runs;
+    runs.reserve(ids.size());
+    for (const ObjectId id : ids)
+        runs.push_back({id, objects[id].first_triangle, objects[id].triangle_count});
+    return runs;
+}
+
+}  // namespace swath

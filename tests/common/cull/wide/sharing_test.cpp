@@ -1,0 +1,120 @@
+#include "common/cull/wide/sharing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/cull/wide/id_slots.h"
+
+namespace swath {
+namespace {
+
+class FakeClock final : public Clock {
+  public:
+    Nanoseconds now() const override { return now_; }
+    Nanoseconds thread_cpu() const override { return now_; }
+    void advance(Nanoseconds by) { now_ += by; }
+
+  private:
+    Nanoseconds now_{0};
+};
+
+class SharingTest : public testing::Test {
+  protected:
+    // Frames of a millisecond's work; returns in how many of them the team took part.
+    int shared_in(int frames, Nanoseconds alone, Nanoseconds shared) {
+        int count = 0;
+        for (int i = 0; i < frames; ++i) {
+            const bool several = sharing_.members(1e6) > 1;
+            clock_.advance(several ? shared : alone);
+            sharing_.done(1e6);
+            count += several ? 1 : 0;
+        }
+        return count;
+    }
+    FakeClock clock_;
+    ThreadTeam team_{4, clock_};
+    Sharing sharing_{team_, SharingMode::kWhenItPays};
+};
+
+TEST_F(SharingTest, LeavesSmallFramesToTheCaller) {
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(sharing_.members(20'000), 1u);
+        clock_.advance(Nanoseconds(20'000));
+        sharing_.done(20'000);
+    }
+}
+
+TEST_F(SharingTest, WakesNoMoreMembersThanTheWorkIsWorth) {
+    sharing_.members(1e6);
+    clock_.advance(Nanoseconds(1'000'000));
+    sharing_.done(1e6);
+    EXPECT_EQ(sharing_.members(60'000), 2u);
+    EXPECT_EQ(sharing_.members(1e6), 4u);
+}
+
+TEST_F(SharingTest, SharesLargeFramesWhileThatIsQuicker) {
+    EXPECT_GT(shared_in(1'000, Nanoseconds(1'000'000), Nanoseconds(300'000)), 950);
+}
+
+TEST_F(SharingTest, StopsWhereTheCoresAreTakenAndTriesAgainEverMoreRarely) {
+    const int first = shared_in(1'000, Nanoseconds(1'000'000), Nanoseconds(4'000'000));
+    EXPECT_GE(first, 3);
+    EXPECT_LE(first, 10);
+    EXPECT_LE(shared_in(1'000, Nanoseconds(1'000'000), Nanoseconds(4'000'000)), 2);
+}
+
+TEST_F(SharingTest, ComesBackWhenTheCoresAreFreeAgain) {
+    shared_in(200, Nanoseconds(1'000'000), Nanoseconds(4'000'000));
+    shared_in(10'000, Nanoseconds(1'000'000), Nanoseconds(300'000));
+    EXPECT_GT(shared_in(1'000, Nanoseconds(1'000'000), Nanoseconds(300'000)), 950);
+}
+
+TEST_F(SharingTest, IsForAllInEveryFrameWhenToldSo) {
+    Sharing always(team_, SharingMode::kAlways);
+    EXPECT_EQ(always.members(0), 4u);
+    always.done(0);
+    EXPECT_EQ(always.members(0), 4u);
+}
+
+TEST(IdSlots, BringTogetherWhatPartsFoundInTheOrderOfTheParts) {
+    const SteadyClock clock;
+    constexpr std::size_t kIds = 1000;
+    for (const std::size_t members : {1u, 2u, 3u, 64u}) {
+        ThreadTeam team(members, clock);
+        IdSlots slots(kIds);
+        // Part i may find up to 100, and finds every (i + 1)th.
+        std::vector<std::size_t> begins;
+        std::vector<std::uint32_t> expected;
+        for (std::size_t begin = 0; begin < kIds; begin += 100) begins.push_back(begin);
+        for (std::size_t i = 0; i < begins.size(); ++i)
+            for (std::size_t id = begins[i]; id < begins[i] + 100; id += i + 1)
+                expected.push_back(static_cast<std::uint32_t>(id));
+        for (int round = 0; round < 200; ++round) {
+            const auto found = slots.share(team, members, begins, [&](std::size_t i) {
+                std::uint32_t* out = slots.data() + begins[i];
+                for (std::size_t id = begins[i]; id < begins[i] + 100; id += i + 1)
+                    *out++ = static_cast<std::uint32_t>(id);
+                return static_cast<std::size_t>(out - slots.data()) - begins[i];
+            });
+            ASSERT_TRUE(std::ranges::equal(found, expected));
+        }
+    }
+}
+
+TEST(IdSlots, LeaveEverythingWhereItIsWhenEverythingWasFound) {
+    const SteadyClock clock;
+    ThreadTeam team(2, clock);
+    IdSlots slots(64);
+    std::iota(slots.data(), slots.data() + 64, 0u);
+    const std::vector<std::size_t> begins{0, 16, 48};
+    const std::vector<std::size_t> counts{16, 32, 16};
+    const auto found = slots.share(team, 2, begins, [&](std::size_t i) { return counts[i]; });
+    EXPECT_EQ(found.data(), slots.data());
+    EXPECT_EQ(found.size(), 64u);
+    EXPECT_TRUE(slots.share(team, 2, {}, [](std::size_t) { return std::size_t{1}; }).empty());
+}
+
+}  // namespace
+}  // namespace swath
