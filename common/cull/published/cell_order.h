@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/geometry/box.h"
+#include "common/geometry/morton.h"
 #include "common/octree/uniform_octree.h"
 
 namespace swath {
@@ -12,16 +13,12 @@ namespace swath {
 // Boxes in the order of the cells of a uniform octree that their centres lie in. The octree's cube has its
 // low corner at `origin` and edges of `side` and contains all centres. Boxes that are not finite have no
 // place.
-struct MortonOrder {
-    struct Entry {
-        std::uint32_t code;  // of the cell, at level UniformOctree::kMaxHeight
-        std::uint32_t box;   // index
-        auto operator<=>(const Entry&) const = default;
-    };
-
+struct CellOrder {
     glm::dvec3 origin{0};
     double side = 1;
-    std::vector<Entry> placed;  // ascending
+    // Ascending by code, of the cell at level UniformOctree::kMaxHeight, in the papers' child order; with the
+    // box's index.
+    std::vector<MortonKey> placed;
     std::vector<std::uint32_t> unplaced;
     // Cells with a box in them, by level.
     std::array<std::size_t, UniformOctree::kMaxHeight + 1> occupied{};
@@ -30,6 +27,6 @@ struct MortonOrder {
     int height_for(double boxes_per_leaf, int highest) const;
 };
 
-MortonOrder morton_order(std::span<const Box> boxes);
+CellOrder cell_order(std::span<const Box> boxes);
 
 }  // namespace swath
