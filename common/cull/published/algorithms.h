@@ -7,8 +7,8 @@ namespace swath {
 
 // Adaptive delayed static balancing (ADSB, sections 3 to 6 and appendix A): the main processor walks breadth
 // first until it has tested n = (8^(d + 1) - 1) / 7 nodes, then deals out what it has not. n is a budget of
-// nodes, as printed, not a level: in a pruned tree it reaches far deeper than d.
-// Mended:
+// nodes, as printed, not a level: in a pruned tree it reaches far deeper than d. Of N nodes that are left
+// every other processor gets N / p, rounded down, and the main processor keeps the rest. Mended:
 // - figure 1: the budget is asked about only if there is one (printed, n = 0 stops after the first node);
 // - the node list is a ring, not a list whose first element is erased;
 // - the end of the main processor's work is its end time (printed, it is its start time a second time).

@@ -46,12 +46,12 @@ CellOrder cell_order(std::span<const Box> boxes) {
         order.origin -= glm::dvec3(0.5 * order.side);
     }
     const double cells = 1 << kDeepest;
-    for (CellOrder::Entry& entry : order.placed) {
-        const glm::dvec3 at = (centre_of(boxes[entry.box]) - order.origin) * (cells / order.side);
+    for (MortonKey& entry : order.placed) {
+        const glm::dvec3 at = (centre_of(boxes[entry.index]) - order.origin) * (cells / order.side);
         const glm::uvec3 cell(glm::clamp(at, glm::dvec3(0), glm::dvec3(cells - 1)));
         entry.code = morton_code({cell.x, cell.y, cell.z});
     }
-    std::ranges::sort(order.placed);
+    sort_by_code(order.placed);
 
     // Neighbours part at the level that their codes first differ at: from there on, one cell more.
     order.occupied.fill(1);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/geometry/box.h"
+#include "common/geometry/morton.h"
 #include "common/octree/uniform_octree.h"
 
 namespace swath {
@@ -13,15 +14,11 @@ namespace swath {
 // low corner at `origin` and edges of `side` and contains all centres. Boxes that are not finite have no
 // place.
 struct CellOrder {
-    struct Entry {
-        std::uint32_t code;  // of the cell, at level UniformOctree::kMaxHeight
-        std::uint32_t box;   // index
-        auto operator<=>(const Entry&) const = default;
-    };
-
     glm::dvec3 origin{0};
     double side = 1;
-    std::vector<Entry> placed;  // ascending
+    // Ascending by code, of the cell at level UniformOctree::kMaxHeight, in the papers' child order; with the
+    // box's index.
+    std::vector<MortonKey> placed;
     std::vector<std::uint32_t> unplaced;
     // Cells with a box in them, by level.
     std::array<std::size_t, UniformOctree::kMaxHeight + 1> occupied{};

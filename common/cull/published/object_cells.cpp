@@ -43,19 +43,19 @@ bool fits(const Box& box, const OctreeCell& cell, const glm::dvec3& origin, doub
 ObjectCells::ObjectCells(std::span<const Box> boxes) {
     const CellOrder order = cell_order(boxes);
     origin_ = order.origin;
-    std::vector<CellOrder::Entry> inside;
+    std::vector<MortonKey> inside;
     std::vector<std::uint32_t> outside_of_cells;
     for (int height = height_of(order);; --height) {
         shape_ = UniformOctree(height);
         leaf_edge_ = order.side / static_cast<double>(1u << height);
         inside.clear();
         outside_of_cells = order.unplaced;
-        for (CellOrder::Entry entry : order.placed) {
+        for (MortonKey entry : order.placed) {
             entry.code >>= 3 * (UniformOctree::kMaxHeight - height);
-            if (fits(boxes[entry.box], morton_cell(entry.code), origin_, leaf_edge_))
+            if (fits(boxes[entry.index], morton_cell(entry.code), origin_, leaf_edge_))
                 inside.push_back(entry);
             else
-                outside_of_cells.push_back(entry.box);
+                outside_of_cells.push_back(entry.index);
         }
         if (height == 0 || outside_of_cells.size() * kMostOfNoCellInverse <= boxes.size()) break;
     }
@@ -67,11 +67,11 @@ ObjectCells::ObjectCells(std::span<const Box> boxes) {
     boxes_.reserve(boxes.size());
     ids_.reserve(boxes.size());
     first_.assign(shape_.leaf_count() + std::size_t{1}, 0);
-    for (const CellOrder::Entry& entry : inside) {
+    for (const MortonKey& entry : inside) {
         ++first_[entry.code + std::size_t{1}];
-        const Box& box = boxes[entry.box];
+        const Box& box = boxes[entry.index];
         reach_ = glm::max(reach_, glm::max(glm::abs(glm::dvec3(box.min)), glm::abs(glm::dvec3(box.max))));
-        add(entry.box);
+        add(entry.index);
     }
     for (std::size_t cell = 1; cell < first_.size(); ++cell) first_[cell] += first_[cell - 1];
     for (const std::uint32_t box : outside_of_cells) add(box);

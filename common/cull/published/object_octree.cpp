@@ -9,7 +9,7 @@ namespace swath {
 
 // Makes nodes depth first. Their places must not move, so all of them are reserved before.
 struct ObjectOctree::Build {
-    std::span<const CellOrder::Entry> placed;
+    std::span<const MortonKey> placed;
     std::span<const WalkBox> boxes;
     int height;
     std::vector<BoxNode>& nodes;
@@ -48,7 +48,7 @@ ObjectOctree::ObjectOctree(std::span<const Box> boxes, double boxes_per_leaf) {
     const CellOrder order = cell_order(boxes);
     boxes_.reserve(boxes.size());
     ids_.reserve(boxes.size());
-    for (const CellOrder::Entry& entry : order.placed) ids_.push_back(entry.box);
+    for (const MortonKey& entry : order.placed) ids_.push_back(entry.index);
     ids_.insert(ids_.end(), order.unplaced.begin(), order.unplaced.end());
     for (const std::uint32_t id : ids_) boxes_.push_back(walk_box(boxes[id]));
     in_leaves_ = order.placed.size();

@@ -32,7 +32,7 @@ Frustum moved(const Frustum& frustum, const glm::vec3& by) {
 }
 
 std::vector<Frustum> frusta() {
-    std::vector<Frustum> all = all_sorts_of_frusta(100, 25, 13);
+    std::vector<Frustum> all = all_sorts_of_frusta(100, 10, 13);
     for (std::size_t i = 0; i < 5; ++i) all.push_back(moved(all[i], glm::vec3(1e6f)));
     return all;
 }
@@ -40,7 +40,7 @@ std::vector<Frustum> frusta() {
 TEST(OctreeCuller, FindsWhatALoopFindsOfAnyBoxesInAnyViewForAnyTeam) {
     const std::vector<Frustum> views = frusta();
     for (const BoxSet& set : all_sorts_of_boxes())
-        for (const std::size_t members : {1u, 2u, 3u, 5u, 16u, 64u}) {
+        for (const std::size_t members : {1u, 3u, 16u, 64u}) {
             ThreadTeam team(members, kClock);
             for (const CullAlgorithm algorithm : {CullAlgorithm::kA2ssb, CullAlgorithm::kAdsb}) {
                 const auto culler = make_culler(algorithm, set.boxes, team);
