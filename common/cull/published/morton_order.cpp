@@ -22,7 +22,7 @@ double longest(const glm::dvec3& size) { return std::max({size.x, size.y, size.z
 
 }  // namespace
 
-MortonOrder morton_order(std::span<const Box> boxes) {
+MortonOrder order_by_cell(std::span<const Box> boxes) {
     MortonOrder order;
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high = -low;

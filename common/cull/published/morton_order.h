@@ -30,6 +30,6 @@ struct MortonOrder {
     int height_for(double boxes_per_leaf, int highest) const;
 };
 
-MortonOrder morton_order(std::span<const Box> boxes);
+MortonOrder order_by_cell(std::span<const Box> boxes);
 
 }  // namespace swath

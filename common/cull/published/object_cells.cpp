@@ -41,7 +41,7 @@ bool fits(const Box& box, const OctreeCell& cell, const glm::dvec3& origin, doub
 }  // namespace
 
 ObjectCells::ObjectCells(std::span<const Box> boxes) {
-    const MortonOrder order = morton_order(boxes);
+    const MortonOrder order = order_by_cell(boxes);
     origin_ = order.origin;
     std::vector<MortonOrder::Entry> inside;
     std::vector<std::uint32_t> outside_of_cells;

@@ -45,7 +45,7 @@ struct ObjectOctree::Build {
 };
 
 ObjectOctree::ObjectOctree(std::span<const Box> boxes, double boxes_per_leaf) {
-    const MortonOrder order = morton_order(boxes);
+    const MortonOrder order = order_by_cell(boxes);
     boxes_.reserve(boxes.size());
     ids_.reserve(boxes.size());
     for (const MortonOrder::Entry& entry : order.placed) ids_.push_back(entry.box);
