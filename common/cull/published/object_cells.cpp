@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/cull/published/morton_order.h"
+#include "common/cull/published/cell_order.h"
 #include "common/cull/published/walks.h"
 
 namespace swath {
@@ -23,7 +23,7 @@ constexpr double kTiny = 1e-38;
 // Beyond it, single precision may overflow.
 constexpr double kHuge = 1e37;
 
-int height_of(const MortonOrder& order) {
+int height_of(const CellOrder& order) {
     int highest = kHighest;
     while (highest > 0 && UniformOctree(highest).leaf_count() > kLeavesPerBox * order.placed.size())
         --highest;
@@ -41,16 +41,16 @@ bool fits(const Box& box, const OctreeCell& cell, const glm::dvec3& origin, doub
 }  // namespace
 
 ObjectCells::ObjectCells(std::span<const Box> boxes) {
-    const MortonOrder order = order_by_cell(boxes);
+    const CellOrder order = cell_order(boxes);
     origin_ = order.origin;
-    std::vector<MortonOrder::Entry> inside;
+    std::vector<CellOrder::Entry> inside;
     std::vector<std::uint32_t> outside_of_cells;
     for (int height = height_of(order);; --height) {
         shape_ = UniformOctree(height);
         leaf_edge_ = order.side / static_cast<double>(1u << height);
         inside.clear();
         outside_of_cells = order.unplaced;
-        for (MortonOrder::Entry entry : order.placed) {
+        for (CellOrder::Entry entry : order.placed) {
             entry.code >>= 3 * (UniformOctree::kMaxHeight - height);
             if (fits(boxes[entry.box], morton_cell(entry.code), origin_, leaf_edge_))
                 inside.push_back(entry);
@@ -67,7 +67,7 @@ ObjectCells::ObjectCells(std::span<const Box> boxes) {
     boxes_.reserve(boxes.size());
     ids_.reserve(boxes.size());
     first_.assign(shape_.leaf_count() + std::size_t{1}, 0);
-    for (const MortonOrder::Entry& entry : inside) {
+    for (const CellOrder::Entry& entry : inside) {
         ++first_[entry.code + std::size_t{1}];
         const Box& box = boxes[entry.box];
         reach_ = glm::max(reach_, glm::max(glm::abs(glm::dvec3(box.min)), glm::abs(glm::dvec3(box.max))));

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "common/cull/published/morton_order.h"
+#include "common/cull/published/cell_order.h"
 #include "common/cull/published/walks.h"
 
 namespace swath {
 
 // Makes nodes depth first. Their places must not move, so all of them are reserved before.
 struct ObjectOctree::Build {
-    std::span<const MortonOrder::Entry> placed;
+    std::span<const CellOrder::Entry> placed;
     std::span<const WalkBox> boxes;
     int height;
     std::vector<BoxNode>& nodes;
@@ -45,10 +45,10 @@ struct ObjectOctree::Build {
 };
 
 ObjectOctree::ObjectOctree(std::span<const Box> boxes, double boxes_per_leaf) {
-    const MortonOrder order = order_by_cell(boxes);
+    const CellOrder order = cell_order(boxes);
     boxes_.reserve(boxes.size());
     ids_.reserve(boxes.size());
-    for (const MortonOrder::Entry& entry : order.placed) ids_.push_back(entry.box);
+    for (const CellOrder::Entry& entry : order.placed) ids_.push_back(entry.box);
     ids_.insert(ids_.end(), order.unplaced.begin(), order.unplaced.end());
     for (const std::uint32_t id : ids_) boxes_.push_back(walk_box(boxes[id]));
     in_leaves_ = order.placed.size();

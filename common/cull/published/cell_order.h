@@ -12,7 +12,7 @@ namespace swath {
 // Boxes in the order of the cells of a uniform octree that their centres lie in. The octree's cube has its
 // low corner at `origin` and edges of `side` and contains all centres. Boxes that are not finite have no
 // place.
-struct MortonOrder {
+struct CellOrder {
     struct Entry {
         std::uint32_t code;  // of the cell, at level UniformOctree::kMaxHeight
         std::uint32_t box;   // index
@@ -30,6 +30,6 @@ struct MortonOrder {
     int height_for(double boxes_per_leaf, int highest) const;
 };
 
-MortonOrder order_by_cell(std::span<const Box> boxes);
+CellOrder cell_order(std::span<const Box> boxes);
 
 }  // namespace swath

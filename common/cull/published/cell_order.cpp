@@ -1,4 +1,4 @@
-#include "common/cull/published/morton_order.h"
+#include "common/cull/published/cell_order.h"
 
 #include <algorithm>
 #include <bit>
@@ -22,8 +22,8 @@ double longest(const glm::dvec3& size) { return std::max({size.x, size.y, size.z
 
 }  // namespace
 
-MortonOrder order_by_cell(std::span<const Box> boxes) {
-    MortonOrder order;
+CellOrder cell_order(std::span<const Box> boxes) {
+    CellOrder order;
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high = -low;
     double largest = 0;
@@ -46,7 +46,7 @@ MortonOrder order_by_cell(std::span<const Box> boxes) {
         order.origin -= glm::dvec3(0.5 * order.side);
     }
     const double cells = 1 << kDeepest;
-    for (MortonOrder::Entry& entry : order.placed) {
+    for (CellOrder::Entry& entry : order.placed) {
         const glm::dvec3 at = (centre_of(boxes[entry.box]) - order.origin) * (cells / order.side);
         const glm::uvec3 cell(glm::clamp(at, glm::dvec3(0), glm::dvec3(cells - 1)));
         entry.code = morton_code({cell.x, cell.y, cell.z});
@@ -64,7 +64,7 @@ MortonOrder order_by_cell(std::span<const Box> boxes) {
     return order;
 }
 
-int MortonOrder::height_for(double boxes_per_leaf, int highest) const {
+int CellOrder::height_for(double boxes_per_leaf, int highest) const {
     int height = 0;
     while (height<highest&& static_cast<double>(placed.size())> boxes_per_leaf *
            static_cast<double>(occupied[static_cast<std::size_t>(height)]))
