@@ -19,32 +19,6 @@ inline void prefetch_block(const float* block) {
     for (int line = 0; line < 6; ++line) __builtin_prefetch(block + 16 * line);
 }
 
-// Three planes and where their p-vertices are: as many as fit into registers.
-struct ThreePlanes {
-    explicit ThreePlanes(const KernelPlane* planes) {
-        for (int k = 0; k < 3; ++k) {
-            x[k] = all(planes[k].x);
-            y[k] = all(planes[k].y);
-            z[k] = all(planes[k].z);
-            w[k] = all(planes[k].w);
-            for (int axis = 0; axis < 3; ++axis) at[k][axis] = planes[k].p[axis];
-        }
-    }
-    std::uint32_t outside(const float* block) const {
-        std::uint32_t gone = 0;
-        for (int k = 0; k < 3; ++k)
-            gone |= below_zero(
-                fused(x[k], load(block + at[k][0]),
-                      fused(y[k], load(block + at[k][1]), fused(z[k], load(block + at[k][2]), w[k]))));
-        return gone;
-    }
-    Floats x[3];
-    Floats y[3];
-    Floats z[3];
-    Floats w[3];
-    std::size_t at[3][3];
-};
-
 // Blocks that fit into a first-level cache, so that the second three planes find them there.
 constexpr std::uint32_t kTile = 64;
 

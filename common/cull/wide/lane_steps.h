@@ -1,5 +1,6 @@
 #pragma once
 // What the kernels of the hierarchy and of the octree have in common. As lanes.h, only for kernels.
+#include <cstddef>
 #include <cstdint>
 
 #include "common/cull/wide/kernel_planes.h"
@@ -16,6 +17,32 @@ inline Floats distance(const KernelPlane& plane, const float* block, const std::
         all(plane.x), load(block + at[0]),
         fused(all(plane.y), load(block + at[1]), fused(all(plane.z), load(block + at[2]), all(plane.w))));
 }
+
+// Three planes and where their p-vertices are: as many as fit into registers.
+struct ThreePlanes {
+    explicit ThreePlanes(const KernelPlane* planes) {
+        for (int k = 0; k < 3; ++k) {
+            x[k] = all(planes[k].x);
+            y[k] = all(planes[k].y);
+            z[k] = all(planes[k].z);
+            w[k] = all(planes[k].w);
+            for (int axis = 0; axis < 3; ++axis) at[k][axis] = planes[k].p[axis];
+        }
+    }
+    std::uint32_t outside(const float* block) const {
+        std::uint32_t gone = 0;
+        for (int k = 0; k < 3; ++k)
+            gone |= below_zero(
+                fused(x[k], load(block + at[k][0]),
+                      fused(y[k], load(block + at[k][1]), fused(z[k], load(block + at[k][2]), w[k]))));
+        return gone;
+    }
+    Floats x[3];
+    Floats y[3];
+    Floats z[3];
+    Floats w[3];
+    std::size_t at[3][3];
+};
 
 // The ids [first, last), in steps of 16 and, if no more than 8 are left, of 8: scribbles no further.
 inline std::uint32_t* fill(std::uint32_t first, std::uint32_t last, std::uint32_t* out) {

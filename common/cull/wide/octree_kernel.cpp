@@ -32,44 +32,71 @@ constexpr TwoFamilies kTwoFamilies = [] {
 
 inline float edge_at(int height, int level) { return static_cast<float>(1u << (height - level)); }
 
-// Which of the 16 cells of `level` are not outside of any plane.
-inline std::uint32_t kept_of(const OctreeWalk& walk, int level, Words cells) {
+// Nodes in batches, so that their children stay in a first-level cache.
+constexpr std::uint32_t kBatch = 32;
+
+// The families of up to kBatch nodes, two by two: 16 children each.
+struct Batch {
+    std::uint32_t pairs;
+    std::uint32_t kept[kBatch / 2];  // the children that are not outside of any plane
+    alignas(64) float blocks[kBatch / 2 * 96];
+};
+
+inline Words cells_of(OctreeNodes nodes, std::uint32_t count, std::uint32_t i) {
+    return add(shift_left<1>(halves(nodes.cells[i], nodes.cells[i + 1 < count ? i + 1 : i])),
+               load(kTwoFamilies.cells));
+}
+inline Words codes_of(OctreeNodes nodes, std::uint32_t count, std::uint32_t i) {
+    return add(shift_left<3>(halves(nodes.codes[i], nodes.codes[i + 1 < count ? i + 1 : i])),
+               load(kTwoFamilies.codes));
+}
+
+// Tests all children, which lie at `level`.
+inline void test(OctreeWalk& walk, int level, OctreeNodes nodes, std::uint32_t count, Batch& batch) {
+    walk.tested += 8 * std::uint64_t{count};
+    batch.pairs = (count + 1) / 2;
     const Floats edge = all(edge_at(walk.height, level));
-    const Floats x = to_floats(both(cells, all(kCoordinate)));
-    const Floats y = to_floats(both(shift_right<10>(cells), all(kCoordinate)));
-    const Floats z = to_floats(shift_right<20>(cells));
-    // As a block of 16 boxes. All of this is exact.
-    alignas(64) float block[96];
-    store(block, multiply(x, edge));
-    store(block + 16, multiply(y, edge));
-    store(block + 32, multiply(z, edge));
-    store(block + 48, fused(x, edge, edge));
-    store(block + 64, fused(y, edge, edge));
-    store(block + 80, fused(z, edge, edge));
-    std::uint32_t gone = 0;
-    for (int k = 0; k < 6; ++k) gone |= below_zero(distance(walk.planes[k], block, walk.planes[k].p));
-    return ~gone & 0xffff;
+    for (std::uint32_t pair = 0; pair < batch.pairs; ++pair) {
+        const Words cells = cells_of(nodes, count, 2 * pair);
+        const Floats x = to_floats(both(cells, all(kCoordinate)));
+        const Floats y = to_floats(both(shift_right<10>(cells), all(kCoordinate)));
+        const Floats z = to_floats(shift_right<20>(cells));
+        // All of this is exact.
+        float* const block = batch.blocks + 96 * pair;
+        store(block, multiply(x, edge));
+        store(block + 16, multiply(y, edge));
+        store(block + 32, multiply(z, edge));
+        store(block + 48, fused(x, edge, edge));
+        store(block + 64, fused(y, edge, edge));
+        store(block + 80, fused(z, edge, edge));
+    }
+    const ThreePlanes first(walk.planes);
+    for (std::uint32_t pair = 0; pair < batch.pairs; ++pair)
+        batch.kept[pair] = ~first.outside(batch.blocks + 96 * pair) & 0xffff;
+    const ThreePlanes second(walk.planes + 3);
+    for (std::uint32_t pair = 0; pair < batch.pairs; ++pair)
+        batch.kept[pair] &= ~second.outside(batch.blocks + 96 * pair);
+    if (count % 2 != 0) batch.kept[batch.pairs - 1] &= 0xff;
+}
+
+// As packed(), and for the last family of an odd number no more than its own places.
+inline std::uint32_t* pack_pair(std::uint32_t* out, Words a, std::uint32_t kept, bool pair) {
+    return pair ? packed(out, a, kept) : packed8(out, a, kept);
 }
 
 std::uint32_t expand(OctreeWalk& walk, int level, OctreeNodes nodes, std::uint32_t count,
                      OctreeNodes children) {
-    walk.tested += 8 * std::uint64_t{count};
     std::uint32_t* codes = children.codes;
     std::uint32_t* cells = children.cells;
-    for (std::uint32_t i = 0; i < count; i += 2) {
-        const bool pair = i + 1 < count;
-        const std::uint32_t second = pair ? i + 1 : i;
-        const Words cell =
-            add(shift_left<1>(halves(nodes.cells[i], nodes.cells[second])), load(kTwoFamilies.cells));
-        const Words code =
-            add(shift_left<3>(halves(nodes.codes[i], nodes.codes[second])), load(kTwoFamilies.codes));
-        const std::uint32_t kept = kept_of(walk, level + 1, cell);
-        if (pair) {
-            codes = packed(codes, code, kept);
-            cells = packed(cells, cell, kept);
-        } else {
-            codes = packed8(codes, code, kept & 0xff);
-            cells = packed8(cells, cell, kept & 0xff);
+    Batch batch;
+    for (std::uint32_t first = 0; first < count; first += kBatch) {
+        const OctreeNodes some{nodes.codes + first, nodes.cells + first};
+        const std::uint32_t some_count = count - first < kBatch ? count - first : kBatch;
+        test(walk, level + 1, some, some_count, batch);
+        for (std::uint32_t pair = 0; pair < batch.pairs; ++pair) {
+            const bool whole = 2 * pair + 1 < some_count;
+            codes = pack_pair(codes, codes_of(some, some_count, 2 * pair), batch.kept[pair], whole);
+            cells = pack_pair(cells, cells_of(some, some_count, 2 * pair), batch.kept[pair], whole);
         }
     }
     return static_cast<std::uint32_t>(codes - children.codes);
@@ -78,22 +105,17 @@ std::uint32_t expand(OctreeWalk& walk, int level, OctreeNodes nodes, std::uint32
 // Of parents whose children are leaves: cells are not needed any more.
 std::uint32_t* expand_to_leaves(OctreeWalk& walk, OctreeNodes nodes, std::uint32_t count,
                                 std::uint32_t* out) {
-    walk.tested += 8 * std::uint64_t{count};
-    for (std::uint32_t i = 0; i < count; i += 2) {
-        const bool pair = i + 1 < count;
-        const std::uint32_t second = pair ? i + 1 : i;
-        const Words cell =
-            add(shift_left<1>(halves(nodes.cells[i], nodes.cells[second])), load(kTwoFamilies.cells));
-        const Words code =
-            add(shift_left<3>(halves(nodes.codes[i], nodes.codes[second])), load(kTwoFamilies.codes));
-        const std::uint32_t kept = kept_of(walk, walk.height, cell);
-        out = pair ? packed(out, code, kept) : packed8(out, code, kept & 0xff);
+    Batch batch;
+    for (std::uint32_t first = 0; first < count; first += kBatch) {
+        const OctreeNodes some{nodes.codes + first, nodes.cells + first};
+        const std::uint32_t some_count = count - first < kBatch ? count - first : kBatch;
+        test(walk, walk.height, some, some_count, batch);
+        for (std::uint32_t pair = 0; pair < batch.pairs; ++pair)
+            out = pack_pair(out, codes_of(some, some_count, 2 * pair), batch.kept[pair],
+                            2 * pair + 1 < some_count);
     }
     return out;
 }
-
-// Nodes in batches, so that their children stay in a first-level cache.
-constexpr std::uint32_t kBatch = 32;
 
 std::uint32_t* same_nodes(OctreeWalk& walk, int level, OctreeNodes nodes, std::uint32_t count,
                           std::uint32_t* out) {

@@ -60,11 +60,15 @@ WideHierarchy::WideHierarchy(std::span<const Box> boxes, ThreadTeam& team, Instr
         levels_.push_back({inner_.back().data(), count});
     }
     CHECK(levels_.size() <= std::size_t{kMaxWideLevels});
-    refit(boxes);
+    bound_nodes();
 }
 
 void WideHierarchy::refit(std::span<const Box> boxes) {
     boxes_.assign(boxes);
+    bound_nodes();
+}
+
+void WideHierarchy::bound_nodes() {
     for (std::size_t level = 0; level < inner_.size(); ++level)
         kernels_.bound(levels_[level].blocks, levels_[level].count, level == 0, inner_[level].data());
 }

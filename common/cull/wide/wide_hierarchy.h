@@ -23,8 +23,8 @@ namespace swath {
 // answer is exactly that of outside(frustum, box) for each box, for boxes that are empty, infinite or no
 // numbers too: the plane test is monotone (see frustum.h), and nodes hold whatever such boxes may do.
 //
-// One thread at a time. The team must outlive it and be idle when it is called; it takes part where
-// that pays (see sharing.h).
+// One thread at a time. The team must outlive it and be idle when it is called; it takes part where that
+// pays (see sharing.h).
 class WideHierarchy {
   public:
     // At most 2^31 boxes. O(n).
@@ -47,6 +47,7 @@ class WideHierarchy {
     const BoxBlocks& blocks() const { return boxes_; }
 
   private:
+    void bound_nodes();
     std::span<const std::uint32_t> cull_shared(WideWalk walk, std::size_t members);
     int split_level(std::size_t members) const;
 

@@ -18,8 +18,8 @@ namespace swath {
 // the codes of the leaves that are not outside(frustum, shape.box_of(height, code)), ascending, bit for bit.
 // Frusta are in the octree's coordinates: a leaf's edge is 1.
 //
-// One thread at a time. The team must outlive it and be idle when it is called; it takes part where
-// that pays (see sharing.h). Places for all codes are reserved, only those written cost
+// One thread at a time. The team must outlive it and be idle when it is called; it takes part where that
+// pays (see sharing.h). Places for all codes are reserved, only those written cost
 // memory.
 class WideOctree {
   public:
