@@ -104,7 +104,7 @@ Status race_cull_and_sort(CullingBench& bench, const BoxSet& set, Structures& in
             });
         race.add(kOurs, [&] { return ours.cull(scene.frustum); });
         if (const auto status = race.check(Race::Order::kSame); !status) return status;
-        race.run(bench.repetitions(7));
+        race.run(bench.repetitions(9));
         worst.offer(race.ratios("ALGO5, literal R and M", kOurs), fmt::format("{}, {}", set.name, scene.name),
                     true);
         races.push_back(std::move(race));
@@ -140,7 +140,7 @@ Status bench_million(CullingBench& bench) {
         Structures structures(set, bench, in_order);
         std::vector<Race> races;
         for (const ObjectScene& scene : object_scenes(set.view_bounds)) {
-            const auto race = race_objects(set, scene, structures, bench.repetitions(9));
+            const auto race = race_objects(set, scene, structures, bench.repetitions(15));
             if (!race) return tl::unexpected(race.error());
             races.push_back(*race);
             against_flat.offer(race->ratios(kOurs, kFlat), fmt::format("{}, {}", set.name, scene.name),
@@ -174,7 +174,7 @@ Status bench_ten_million(CullingBench& bench) {
     Structures structures(set, bench, true);
     std::vector<Race> races;
     for (const ObjectScene& scene : object_scenes(set.view_bounds)) {
-        const auto race = race_objects(set, scene, structures, bench.repetitions(5));
+        const auto race = race_objects(set, scene, structures, bench.repetitions(7));
         if (!race) return tl::unexpected(race.error());
         races.push_back(*race);
         if (scene.name != "c60") continue;
