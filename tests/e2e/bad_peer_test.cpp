@@ -2,6 +2,7 @@
 // go on.
 #include <csignal>
 
+#include "common/wire/codec.h"
 #include "tests/e2e/programs.h"
 #include "tests/e2e/raw_peer.h"
 
@@ -117,13 +118,14 @@ TEST_F(BadPeer, SpeakerOfAnotherProtocolIsRecognised) {
 }
 
 TEST_F(BadPeer, MessageBeyondTheLimitsIsRefusedBeforeItComes) {
-    expect_one_error(client_of_raw_server(raw_prefix(1, 0xffffffff, 0)), 1, {"4294967295", "1024"});
-    expect_one_error(client_of_raw_server(raw_prefix(1, 8, 0xffffffff)), 1, {"4294967295", "0"});
+    expect_one_error(client_of_raw_server(raw_prefix(kWireVersion, 0xffffffff, 0)), 1,
+                     {"4294967295", "1024"});
+    expect_one_error(client_of_raw_server(raw_prefix(kWireVersion, 8, 0xffffffff)), 1, {"4294967295", "0"});
 }
 
 TEST_F(BadPeer, GarbledHelloIsRefused) {
-    expect_one_error(client_of_raw_server(raw_prefix(1, 16, 0) + std::string(16, '\xff')), 1, {});
-    expect_one_error(client_of_raw_server(raw_prefix(1, 0, 0)), 1, {});
+    expect_one_error(client_of_raw_server(raw_prefix(kWireVersion, 16, 0) + std::string(16, '\xff')), 1, {});
+    expect_one_error(client_of_raw_server(raw_prefix(kWireVersion, 0, 0)), 1, {});
 }
 
 TEST_F(BadPeer, ServerThatSaysNothingIsGivenUp) {
@@ -143,14 +145,14 @@ TEST_F(BadPeer, GarbageLeavesServerAndDisplayServingTheNextClient) {
         "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n",
         std::string(100'000, '\0'),
         std::string(100'000, '\xff'),
-        raw_prefix(2, 4, 0) + "head",
-        raw_prefix(1, 0xffffffff, 0xffffffff),
-        raw_prefix(1, 1000, 0) + "cut off",
-        raw_prefix(1, 16, 0) + std::string(16, '\xff'),
+        raw_prefix(1, 4, 0) + "head",
+        raw_prefix(kWireVersion, 0xffffffff, 0xffffffff),
+        raw_prefix(kWireVersion, 1000, 0) + "cut off",
+        raw_prefix(kWireVersion, 16, 0) + std::string(16, '\xff'),
         hello + hello,
-        hello + raw_prefix(1, 0xffffffff, 0),
-        hello + raw_prefix(1, 8, 0xffffffff),
-        hello + raw_prefix(1, 16, 0) + std::string(16, '\xff'),
+        hello + raw_prefix(kWireVersion, 0xffffffff, 0),
+        hello + raw_prefix(kWireVersion, 8, 0xffffffff),
+        hello + raw_prefix(kWireVersion, 16, 0) + std::string(16, '\xff'),
         hello.substr(0, hello.size() - 1),
     };
     const std::string expected = render(kModel + Arguments{"--single"});
