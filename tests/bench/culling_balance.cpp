@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <thread>
 
 #include "common/cull/published/published_walk.h"
 #include "tests/bench/culling_bench.h"
@@ -44,7 +45,8 @@ double imbalance(const WalkReport& report) {
 Status draw_idle_time(CullingBench& bench) {
     ThreadTeam team(kProcessors, bench.clock);
     sim::Plot times;
-    times.title = "Idle time over the split level, 4 threads";
+    times.title = fmt::format("Idle time over the split level, {} threads on {} cores", kProcessors,
+                              std::thread::hardware_concurrency());
     times.x_label = "split level";
     times.y_label = "total idle time, us";
     sim::Plot counts = times;

@@ -5,6 +5,11 @@ namespace swath::bench {
 Status bench_culling(Figures& figures, const Effort& effort) {
     const SteadyClock clock;
     CullingBench bench{figures, effort, clock};
+    if (!effort.out.empty()) {  // before minutes of measuring, not after
+        std::error_code error;
+        std::filesystem::create_directories(effort.out, error);
+        if (error) return fail("{}: {}", effort.out.string(), error.message());
+    }
     for (Status (*const part)(CullingBench&) : {bench_trees, bench_objects, bench_sorts, bench_loaded})
         if (const auto status = part(bench); !status) return status;
     if (effort.out.empty()) return {};

@@ -58,10 +58,10 @@ Status bench_loaded(CullingBench& bench) {
     race.add("two threads", [&] { return two->cull(frustum); });
     if (const auto status = race.check(); !status) return status;
     const Load load;
-    race.run(bench.repetitions(15), bench.effort.smoke ? 10 : 400, Race::Frames::kMean);
+    race.run(bench.repetitions(15), bench.effort.smoke ? 10 : 1000, Race::Frames::kMean);
     bench.figures.note(table(title, {&race, 1}));
     bench.figures.add("loaded_vs_1t", race.ratios("one thread", "two threads"), "x",
-                      "at least 0.9: one thread / two, means of 400 frames, all cores loaded");
+                      "at least 0.9: one thread / two, means of 1000 frames, all cores loaded");
     return {};
 }
 

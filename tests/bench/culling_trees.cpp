@@ -88,7 +88,7 @@ Status bench_whole_tree(CullingBench& bench) {
     TreeRace contest(bench, tree, scene, title_of(tree, scene));
     contest.add_published();
     contest.add_every_node();
-    const auto race = contest.run(bench.repetitions(15));
+    const auto race = contest.run(bench.repetitions(25));
     if (!race) return tl::unexpected(race.error());
     bench.figures.note(table(
         fmt::format("{} levels, {} nodes, all tested", height + 1, tree.shape().node_count()), {&*race, 1}));
@@ -144,7 +144,7 @@ Status bench_early_out(CullingBench& bench) {
         contest.add_published();
         contest.add_every_node();
         contest.add_early_out();
-        const auto race = contest.run(bench.repetitions(9));
+        const auto race = contest.run(bench.repetitions(11));
         if (!race) return tl::unexpected(race.error());
         bench.figures.add(
             figure, race->ratios(kCanonical, kOurs), "x",

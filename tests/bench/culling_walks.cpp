@@ -24,8 +24,9 @@ int force_best_split_level(PublishedWalk& walk, const Frustum& frustum, int heig
     double best_us = std::numeric_limits<double>::infinity();
     for (int level = 0; level < height; ++level) {
         walk.force_split_level(level);
+        if (walk.walk(frustum).split_level != level) continue;  // above the start level
         std::vector<double> us;
-        for (int i = 0; i < 7; ++i) us.push_back(time_us([&] { walk.walk(frustum); }));
+        for (int i = 0; i < 9; ++i) us.push_back(time_us([&] { walk.walk(frustum); }));
         if (median(us) < best_us) {
             best_us = median(us);
             best = level;

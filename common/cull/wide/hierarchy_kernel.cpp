@@ -194,6 +194,18 @@ WidePiece* pieces(WideWalk& w, int level, WidePiece piece, int to, WidePiece* ou
     return out;
 }
 
+std::uint32_t crossing(WideWalk& w, int level, WidePiece piece) {
+    Children children;
+    if (!test(w, level, piece, children)) return 0;
+    if (level == 2) return static_cast<std::uint32_t>(__builtin_popcount(children.crossing));
+    std::uint32_t sum = 0;
+    for (std::uint32_t rest = children.crossing; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::uint32_t>(__builtin_ctz(rest));
+        sum += crossing(w, level - 1, {16 * piece.block + i, children.planes[i]});
+    }
+    return sum;
+}
+
 void bound(const float* blocks, std::uint32_t count, bool of_objects, float* parents) {
     const std::uint32_t parent_count = (count + 15) / 16;
     for (std::uint32_t block = 0; block < parent_count; ++block) {
@@ -222,6 +234,6 @@ void bound(const float* blocks, std::uint32_t count, bool of_objects, float* par
 
 }  // namespace
 
-const HierarchyKernels kHierarchyKernels{scan, walk, pieces, bound};
+const HierarchyKernels kHierarchyKernels{scan, walk, pieces, crossing, bound};
 
 }  // namespace swath::SWATH_KERNEL

@@ -50,6 +50,8 @@ struct HierarchyKernels {
     // The blocks of level `to` < level below a block of `level` that are not outside. `out` needs places for
     // all.
     WidePiece* (*pieces)(WideWalk& walk, int level, WidePiece piece, int to, WidePiece* out);
+    // How many blocks of level 1 below a block of `level` > 1 cross a plane.
+    std::uint32_t (*crossing)(WideWalk& walk, int level, WidePiece piece);
     // The bounds of `count` boxes' blocks become boxes of the next level, `parents`: the last is repeated to
     // the end of its block. `of_objects`: the boxes may be empty, infinite or no numbers; their bounds then
     // hold whatever the box's corners hold, and a coordinate that is not finite counts as both infinities.

@@ -93,15 +93,11 @@ std::span<const std::uint32_t> WideHierarchy::cull(const Frustum& frustum) {
     return visible;
 }
 
-std::uint32_t WideHierarchy::crossing_nodes(const Frustum& frustum) {
-    if (levels_.size() < 2) return 0;
+std::uint32_t WideHierarchy::crossing_nodes(const Frustum& frustum) const {
+    if (levels_.size() < 3) return static_cast<std::uint32_t>(levels_.size() / 2);
     const std::array<KernelPlane, 6> planes = kernel_planes(frustum);
     WideWalk walk{levels_.data(), planes.data(), {}};
-    pieces_.resize((levels_[1].count + 15) / 16);
-    const WidePiece* const end =
-        kernels_.pieces(walk, static_cast<int>(levels_.size()) - 1, {0, kAllPlanes}, 1, pieces_.data());
-    return static_cast<std::uint32_t>(std::count_if(
-        std::as_const(pieces_).data(), end, [](const WidePiece& piece) { return piece.planes != 0; }));
+    return kernels_.crossing(walk, static_cast<int>(levels_.size()) - 1, {0, kAllPlanes});
 }
 
 // The highest level with blocks enough.

@@ -40,7 +40,7 @@ class WideHierarchy {
 
     // Of the nodes of 256 boxes those that cull() would look into, as they cross a plane: an estimate of its
     // work for a 200th of a scan's.
-    std::uint32_t crossing_nodes(const Frustum& frustum);
+    std::uint32_t crossing_nodes(const Frustum& frustum) const;
 
     // What the last cull tested.
     const WideWork& work() const { return work_; }
