@@ -56,7 +56,8 @@ void sort(std::vector<Key>& keys, const Mesh& mesh) {
     radix_sort(keys, kCodeBits, [](const Key& key) { return key.code; });
     if (mesh.materials.empty()) return;
     const std::uint32_t last = *std::ranges::max_element(mesh.materials);
-    radix_sort(keys, std::bit_width(last), [&](const Key& key) { return mesh.materials[key.triangle]; });
+    radix_sort(keys, static_cast<int>(std::bit_width(last)),
+               [&](const Key& key) { return mesh.materials[key.triangle]; });
 }
 
 // The depth asked for, or the one whose number of objects, that is of occupied cells of each material, is
