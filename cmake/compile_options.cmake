@@ -32,7 +32,8 @@ endfunction()
 # (namespace `portable`) and once more for each instruction set named (`avx2`, `avx512`; on x86-64 only).
 # SWATH_KERNEL is defined as that namespace. Such a source may include only headers without inline functions of
 # linkage (no containers, no glm): the linker could give everybody the copy that few processors can run.
-# common/base/instruction_set.h says at run time which one to call.
+# common/base/instruction_set.h says at run time which one to call. tests/architecture looks at the objects, which the
+# global property SWATH_KERNELS lists.
 function(swath_kernel library source)
   set(flags_portable "")
   set(flags_avx2 -mavx2 -mfma -mbmi -mbmi2)
@@ -49,6 +50,7 @@ function(swath_kernel library source)
     target_compile_definitions(${objects} PRIVATE SWATH_KERNEL=${set} SWATH_KERNEL_${set})
     target_compile_options(${objects} PRIVATE ${flags_${set}})
     target_sources(${library} PRIVATE $<TARGET_OBJECTS:${objects}>)
+    set_property(GLOBAL APPEND PROPERTY SWATH_KERNELS $<TARGET_OBJECTS:${objects}>)
   endforeach()
 endfunction()
 

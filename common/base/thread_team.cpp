@@ -45,8 +45,12 @@ void announce(std::atomic<std::uint32_t>& state, std::uint32_t value) {
 ThreadTeam::ThreadTeam(std::size_t size, const Clock& clock) : clock_(clock) {
     CHECK(size >= std::size_t{1});
     for (std::size_t i = 0; i < size; ++i) members_.push_back(std::make_unique<Member>());
-    for (std::size_t i = 1; i < size; ++i)
-        members_[i]->thread = std::thread([this, &member = *members_[i]] { live(member); });
+    try {
+        for (std::size_t i = 1; i < size; ++i)
+            members_[i]->thread = std::thread([this, &member = *members_[i]] { live(member); });
+    } catch (const std::exception&) {
+        // Then there are fewer threads: wait() takes what nobody begins.
+    }
 }
 
 ThreadTeam::~ThreadTeam() {
@@ -75,7 +79,11 @@ bool ThreadTeam::take(Member& member) {
     std::uint32_t expected = kStarted;
     if (!member.state.compare_exchange_strong(expected, kRunning, std::memory_order_acq_rel)) return false;
     member.begin = clock_.now();
-    member.task();
+    try {
+        member.task();
+    } catch (...) {
+        member.thrown = std::current_exception();
+    }
     member.end = clock_.now();
     announce(member.state, kIdle);
     return true;
@@ -97,6 +105,13 @@ void ThreadTeam::start(std::size_t member) {
 void ThreadTeam::wait() {
     for (const auto& member : members_) take(*member);
     for (const auto& member : members_) await_change(member->state, kRunning);
+    std::exception_ptr first;
+    for (const auto& member : members_)
+        if (member->thrown) {
+            const std::exception_ptr thrown = std::exchange(member->thrown, nullptr);
+            if (!first) first = thrown;
+        }
+    if (first) std::rethrow_exception(first);
 }
 
 void ThreadTeam::run(const std::function<void(std::size_t member)>& task) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -15,10 +17,11 @@ namespace swath {
 // Member 0 is the caller; the others are threads that sleep between tasks. All calls come from one thread,
 // the caller's. There may be more members than cores: a waiting thread spins for a moment, then yields, then
 // sleeps, and wait() does itself what no other member has begun, so a busy machine costs no more than doing
-// it all alone. Tasks must not throw and must not call the team.
+// it all alone. Tasks must not call the team. A task may throw unless another waits for it.
 class ThreadTeam {
   public:
-    // `size` members, at least 1; size - 1 threads are started. `clock` must outlive the team.
+    // `size` members, at least 1; size - 1 threads are started. Where the system refuses one (a container's
+    // limit), the caller does that member's tasks. `clock` must outlive the team.
     ThreadTeam(std::size_t size, const Clock& clock);
     // No task may be under way.
     ~ThreadTeam();
@@ -32,7 +35,8 @@ class ThreadTeam {
     void set_task(std::size_t member, std::function<void()> task);
     void start(std::size_t member);
     // Does member 0's task if it was started, then those of members that have not begun, and blocks until all
-    // are done. What tasks wrote is visible afterwards.
+    // are done. What tasks wrote is visible afterwards. Throws what a task threw (of several, the first
+    // member's), when all are done.
     void wait();
 
     // The same task for every member, started and waited for. The order in which members begin is open.
@@ -50,7 +54,8 @@ class ThreadTeam {
         std::function<void()> task;
         Nanoseconds begin{0};
         Nanoseconds end{0};
-        std::thread thread;  // none for member 0
+        std::exception_ptr thrown;
+        std::thread thread;  // none for member 0, nor where there could not be one
     };
     void live(Member& member);
     // Does the member's task if it is started and nobody has begun it.

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::array kAlgorithms{CullAlgorithm::kWide, CullAlgorithm::kA2ssb, CullAlgorithm::kAdsb,
                                  CullAlgorithm::kNone};
+static_assert(kAlgorithms.size() == kCullAlgorithmCount);
 
 class NoCuller final : public Culler {
   public:

@@ -12,6 +12,7 @@ constexpr double kCells = 1 << kMortonDepth;  // an axis
 
 // Spreads the low ten bits: bit i goes to bit 3 i.
 std::uint32_t spread(std::uint32_t bits) {
+    bits &= 0x3ff;
     bits = (bits | bits << 16) & 0x030000ff;
     bits = (bits | bits << 8) & 0x0300f00f;
     bits = (bits | bits << 4) & 0x030c30c3;
@@ -33,17 +34,21 @@ bool proper(const Box& box) {
 
 }  // namespace
 
-std::uint32_t morton_code(const glm::dvec3& point, const glm::dvec3& min, const glm::dvec3& size) {
-    return spread(cell(point.x, min.x, size.x)) | spread(cell(point.y, min.y, size.y)) << 1 |
-           spread(cell(point.z, min.z, size.z)) << 2;
+std::uint32_t interleave(std::uint32_t first, std::uint32_t second, std::uint32_t third) {
+    return spread(first) | spread(second) << 1 | spread(third) << 2;
 }
 
-void sort_by_code(std::vector<MortonKey>& keys) {
+std::uint32_t morton_code(const glm::dvec3& point, const glm::dvec3& min, const glm::dvec3& size) {
+    return interleave(cell(point.x, min.x, size.x), cell(point.y, min.y, size.y),
+                      cell(point.z, min.z, size.z));
+}
+
+void sort_by_code(std::vector<MortonKey>& keys, int bits) {
     // Least significant digit first.
     constexpr int kDigitBits = 10;
     constexpr std::uint32_t kMask = (1u << kDigitBits) - 1;
     std::vector<MortonKey> other(keys.size());
-    for (int shift = 0; shift < kMortonBits; shift += kDigitBits) {
+    for (int shift = 0; shift < bits; shift += kDigitBits) {
         std::array<std::size_t, (1u << kDigitBits)> place{};
         for (const MortonKey& key : keys) ++place[key.code >> shift & kMask];
         std::size_t sum = 0;

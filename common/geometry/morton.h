@@ -18,12 +18,16 @@ struct MortonKey {
     std::uint32_t index;
 };
 
+// The lowest ten bits of three numbers, taken in turn: bit i of `first` becomes bit 3 i, that of `second` the
+// one above it.
+std::uint32_t interleave(std::uint32_t first, std::uint32_t second, std::uint32_t third);
+
 // In double the sums and quotients of floats are as good as exact, so that which side of a cell's border a
 // point falls on is a property of the model and not of rounding. Points outside count as on the border.
 std::uint32_t morton_code(const glm::dvec3& point, const glm::dvec3& min, const glm::dvec3& size);
 
-// By code, and by place among equal codes. O(n).
-void sort_by_code(std::vector<MortonKey>& keys);
+// By the lowest `bits` bits of the code; keys that are equal in these keep their order. O(n).
+void sort_by_code(std::vector<MortonKey>& keys, int bits = kMortonBits);
 
 // The order of the boxes' centres in the box around them: element i is the box that comes i-th. Boxes that
 // are empty or not finite come first. At most 2^32 boxes. O(n).

@@ -1,18 +1,12 @@
 #include "common/octree/uniform_octree.h"
 
 #include "common/base/check.h"
+#include "common/geometry/morton.h"
 
 namespace swath {
 namespace {
 
-// Moves bit i of ten bits to bit 3i, and back.
-std::uint32_t spread(std::uint32_t v) {
-    v = (v | v << 16) & 0x030000ffu;
-    v = (v | v << 8) & 0x0300f00fu;
-    v = (v | v << 4) & 0x030c30c3u;
-    return (v | v << 2) & 0x09249249u;
-}
-
+// Moves every third bit, from the lowest on, next to each other: what interleave() took apart.
 std::uint32_t gather(std::uint32_t v) {
     v &= 0x09249249u;
     v = (v | v >> 2) & 0x030c30c3u;
@@ -23,9 +17,7 @@ std::uint32_t gather(std::uint32_t v) {
 
 }  // namespace
 
-std::uint32_t morton_code(const OctreeCell& cell) {
-    return spread(cell.x) | spread(cell.z) << 1 | spread(cell.y) << 2;
-}
+std::uint32_t morton_code(const OctreeCell& cell) { return interleave(cell.x, cell.z, cell.y); }
 
 OctreeCell morton_cell(std::uint32_t code) { return {gather(code), gather(code >> 2), gather(code >> 1)}; }
 

@@ -34,7 +34,7 @@ void add_lifeline_option(CLI::App& app, ProgramOptions& options) {
 
 void add_threads_option(CLI::App& app, int& threads) {
     app.add_option("--threads", threads,
-                   "raster threads that Mesa adds to the drawing one, per process [what the cores allow]")
+                   "threads that draw and cull beside the drawing one, per process [what the cores allow]")
         ->envname("LP_NUM_THREADS")
         ->check(CLI::Range(0, 256));
 }

@@ -23,7 +23,7 @@ void add_lifeline_option(CLI::App& app, ProgramOptions& options);  // for progra
 // first context: the threads that llvmpipe adds to the one that draws (-1: its own choice, one a core).
 void add_threads_option(CLI::App& app, int& threads);
 void set_raster_threads(int threads);
-// How many threads that makes, the drawing one among them: so many may cull together too. At least 1.
+// How many threads may cull together, the drawing one among them: `threads` and 1, or one a core. At least 1.
 std::size_t drawing_threads(int threads);
 
 // Log lines go to stderr, prefixed by the program.

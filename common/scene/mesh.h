@@ -40,8 +40,8 @@ inline constexpr float kMaxCoordinate = 1e18f;
 
 // Why this mesh cannot be rendered, as one line, or success: no triangles, an index out of range, a
 // coordinate that is not finite or above kMaxCoordinate, a material number for some triangles only or above
-// its limit. The line says how many there are and names the
-// first. Zero-area triangles and unreferenced vertices are allowed.
+// its limit. The line says how many there are and names the first. Zero-area triangles and unreferenced
+// vertices are allowed.
 Status validate(const Mesh& mesh);
 
 // The direction of `n`, which need not have unit length; +z where it has none (zero or not finite).

@@ -14,60 +14,44 @@ namespace {
 constexpr int kCodeBits = 3 * kMaxOctreeDepth;
 static_assert(kMaxOctreeDepth == kMortonDepth);
 
-// A triangle and the Morton code of its centre.
-struct Key {
-    std::uint32_t code;
-    std::uint32_t triangle;
-};
-
-std::vector<Key> morton_keys(const Mesh& mesh, const Box& box) {
+// Of each triangle, the Morton code of its centre.
+std::vector<MortonKey> morton_keys(const Mesh& mesh, const Box& box) {
     const glm::dvec3 min(box.min);
     const glm::dvec3 size = glm::dvec3(box.max) - min;
-    std::vector<Key> keys(mesh.triangle_count());
+    std::vector<MortonKey> keys(mesh.triangle_count());
     for (std::size_t t = 0; t < keys.size(); ++t) {
         Box triangle;
         for (std::size_t corner = 0; corner < 3; ++corner)
             triangle.extend(mesh.vertices[mesh.indices[3 * t + corner]].position);
         const glm::dvec3 centre = 0.5 * (glm::dvec3(triangle.min) + glm::dvec3(triangle.max));
         keys[t].code = morton_code(centre, min, size);
-        keys[t].triangle = static_cast<std::uint32_t>(t);
+        keys[t].index = static_cast<std::uint32_t>(t);
     }
     return keys;
 }
 
-// Sorts by the lowest `bits` bits of a number of each key. Stable, least significant digit first.
-template <class Number>
-void radix_sort(std::vector<Key>& keys, int bits, const Number& number) {
-    constexpr int kDigitBits = 10;
-    constexpr std::uint32_t kMask = (1u << kDigitBits) - 1;
-    std::vector<Key> other(keys.size());
-    for (int shift = 0; shift < bits; shift += kDigitBits) {
-        std::array<std::size_t, (1u << kDigitBits)> place{};
-        for (const Key& key : keys) ++place[number(key) >> shift & kMask];
-        std::size_t sum = 0;
-        for (std::size_t& p : place) sum += std::exchange(p, sum);
-        for (const Key& key : keys) other[place[number(key) >> shift & kMask]++] = key;
-        keys.swap(other);
-    }
-}
-
 // By material, then by code; triangles of one code keep the model's order.
-void sort(std::vector<Key>& keys, const Mesh& mesh) {
-    radix_sort(keys, kCodeBits, [](const Key& key) { return key.code; });
+void sort(std::vector<MortonKey>& keys, const Mesh& mesh) {
+    sort_by_code(keys);
     if (mesh.materials.empty()) return;
-    const std::uint32_t last = *std::ranges::max_element(mesh.materials);
-    radix_sort(keys, static_cast<int>(std::bit_width(last)),
-               [&](const Key& key) { return mesh.materials[key.triangle]; });
+    std::vector<MortonKey> by_material(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        by_material[i] = {mesh.materials[keys[i].index], static_cast<std::uint32_t>(i)};
+    sort_by_code(by_material, static_cast<int>(std::bit_width(*std::ranges::max_element(mesh.materials))));
+    std::vector<MortonKey> sorted;
+    sorted.reserve(keys.size());
+    for (const MortonKey& material : by_material) sorted.push_back(keys[material.index]);
+    keys = std::move(sorted);
 }
 
 // The depth asked for, or the one whose number of objects, that is of occupied cells of each material, is
 // closest to the number asked for; the shallower of two that are equally close.
-int choose_depth(const std::vector<Key>& keys, const Mesh& mesh, const Granularity& granularity) {
+int choose_depth(const std::vector<MortonKey>& keys, const Mesh& mesh, const Granularity& granularity) {
     if (granularity.depth) return *granularity.depth;
     std::array<std::size_t, kMaxOctreeDepth + 1> cells{};
     cells.fill(1);
     for (std::size_t i = 1; i < keys.size(); ++i) {
-        if (mesh.material(keys[i - 1].triangle) != mesh.material(keys[i].triangle)) {
+        if (mesh.material(keys[i - 1].index) != mesh.material(keys[i].index)) {
             for (std::size_t& count : cells) ++count;
             continue;
         }
@@ -86,7 +70,7 @@ int choose_depth(const std::vector<Key>& keys, const Mesh& mesh, const Granulari
 }
 
 // The mesh with its triangles in the order of `keys` and its vertices in the order of their first use.
-Mesh reorder(const Mesh& mesh, const std::vector<Key>& keys) {
+Mesh reorder(const Mesh& mesh, const std::vector<MortonKey>& keys) {
     constexpr std::uint32_t kUnused = 0xffff'ffff;
     static_assert(kMaxVertices < kUnused);
     std::vector<std::uint32_t> numbers(mesh.vertices.size(), kUnused);
@@ -94,10 +78,10 @@ Mesh reorder(const Mesh& mesh, const std::vector<Key>& keys) {
     result.indices.reserve(mesh.indices.size());
     result.vertices.reserve(mesh.vertices.size());
     result.materials.reserve(mesh.materials.size());
-    for (const Key& key : keys) {
-        if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[key.triangle]);
+    for (const MortonKey& key : keys) {
+        if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[key.index]);
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const std::uint32_t old = mesh.indices[3 * std::size_t{key.triangle} + corner];
+            const std::uint32_t old = mesh.indices[3 * std::size_t{key.index} + corner];
             if (numbers[old] == kUnused) {
                 numbers[old] = static_cast<std::uint32_t>(result.vertices.size());
                 result.vertices.push_back(mesh.vertices[old]);
@@ -144,7 +128,7 @@ ObjectSet build_objects(Mesh mesh, const Granularity& granularity) {
 
     ObjectSet set;
     set.bounds = bounds(mesh);
-    std::vector<Key> keys = morton_keys(mesh, set.bounds);
+    std::vector<MortonKey> keys = morton_keys(mesh, set.bounds);
     sort(keys, mesh);
     set.depth = choose_depth(keys, mesh, granularity);
     set.mesh = reorder(mesh, keys);

@@ -1,5 +1,9 @@
 #include "tests/bench/culling_peers.h"
 
+// Bullet's headers assign by cases in a way that GCC does not see through.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 
 #include <algorithm>

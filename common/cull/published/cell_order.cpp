@@ -65,9 +65,9 @@ CellOrder cell_order(std::span<const Box> boxes) {
 }
 
 int CellOrder::height_for(double boxes_per_leaf, int highest) const {
+    const auto leaves = static_cast<double>(placed.size()) / boxes_per_leaf;
     int height = 0;
-    while (height<highest&& static_cast<double>(placed.size())> boxes_per_leaf *
-           static_cast<double>(occupied[static_cast<std::size_t>(height)]))
+    while (height < highest && static_cast<double>(occupied[static_cast<std::size_t>(height)]) < leaves)
         ++height;
     return height;
 }

@@ -3,6 +3,7 @@
 #include <bit>
 #include <vector>
 
+#include "common/base/check.h"
 #include "common/cull/published/member_lists.h"
 #include "common/cull/published/object_cells.h"
 #include "common/cull/published/walks.h"
@@ -36,7 +37,7 @@ class OctreeCuller final : public Culler {
     OctreeCuller(PublishedAlgorithm algorithm, std::span<const Box> boxes, ThreadTeam& team)
         : cells_(boxes),
           walk_(make_published_walk(algorithm, cells_.shape(), team)),
-          found_(team.size()),
+          found_(has_one_member(algorithm) ? 1 : team.size()),
           set_(boxes.size()) {
         walk_->set_leaf_task([this](std::size_t member, std::span<const std::uint32_t> leaves) {
             cull_boxes(member, leaves);
@@ -48,7 +49,8 @@ class OctreeCuller final : public Culler {
         const WalkReport& report = walk_->walk(cells_.loosened(frustum));
         split_level_ = report.split_level;
         visible_.clear();
-        for (std::size_t k = 0; k < report.members.size(); ++k) set_.add(contents(*found_[k].ids));
+        CHECK(report.members.size() == found_.size());
+        for (auto& found : found_) set_.add(contents(*found.ids));
         set_.move_to(visible_);
         return visible_;
     }
@@ -56,6 +58,7 @@ class OctreeCuller final : public Culler {
     std::optional<int> split_level() const override { return split_level_; }
 
   private:
+    // One for each member that works.
     struct alignas(128) Found {
         OwnedList<WalkList<std::uint32_t>> ids;
     };

@@ -27,6 +27,11 @@ std::unique_ptr<PublishedWalk> make(PublishedAlgorithm algorithm, const Tree& tr
 
 }  // namespace
 
+bool has_one_member(PublishedAlgorithm algorithm) {
+    return algorithm == PublishedAlgorithm::kAlgo4 || algorithm == PublishedAlgorithm::kAlgo5 ||
+           algorithm == PublishedAlgorithm::kAlgo4Lanes;
+}
+
 std::string_view name_of(PublishedAlgorithm algorithm) {
     switch (algorithm) {
         case PublishedAlgorithm::kAdsb:

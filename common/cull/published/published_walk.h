@@ -30,6 +30,7 @@ enum class PublishedAlgorithm {
     kAlgo1Lanes,
     kAlgo4Lanes,
 };
+bool has_one_member(PublishedAlgorithm algorithm);       // whatever the team: kAlgo4, kAlgo5, kAlgo4Lanes
 std::string_view name_of(PublishedAlgorithm algorithm);  // "ADSB", "ALGO1", "ALGO1 lanes" ...
 
 struct MemberReport {

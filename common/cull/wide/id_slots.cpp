@@ -31,6 +31,8 @@ std::span<const std::uint32_t> IdSlots::share(ThreadTeam& team, std::size_t memb
     const std::size_t parts = begins.size();
     if (parts == 0) return {};
     ends_.resize(parts);
+    // Here, since nothing below may throw: others would wait for what it does.
+    if (together_.size() == 0) together_ = AlignedArray<std::uint32_t>(capacity_);
     std::atomic<std::size_t> next{0};
     std::atomic<std::size_t> left{parts};
     std::atomic<std::size_t> next_copy{0};
@@ -43,8 +45,7 @@ std::span<const std::uint32_t> IdSlots::share(ThreadTeam& team, std::size_t memb
             sum += ends_[i];
             ends_[i] = sum;
         }
-        if (gaps && together_.size() == 0) together_ = AlignedArray<std::uint32_t>(capacity_);
-        counted.store(true, std::memory_order_release);
+        counted.store(true);  // sequentially consistent, see announce() in thread_team.cpp
         counted.notify_all();
     };
     const auto task = [&] {

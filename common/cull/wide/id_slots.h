@@ -23,8 +23,8 @@ class IdSlots {
     std::span<const std::uint32_t> first(std::size_t count) const { return {apart_.data(), count}; }
 
     // Part i of the work writes ids, ascending, from data() + begins[i] and returns how many; no more than
-    // begins[i + 1] - begins[i]. `begins` ascends. `members` of the team, 1 to all, take parts as they come
-    // free, and bring the ids together the same way. Valid until the next call.
+    // begins[i + 1] - begins[i]; it must not throw. `begins` ascends. `members` of the team, 1 to all, take
+    // parts as they come free, and bring the ids together the same way. Valid until the next call.
     std::span<const std::uint32_t> share(ThreadTeam& team, std::size_t members,
                                          std::span<const std::size_t> begins,
                                          const std::function<std::size_t(std::size_t part)>& work);
@@ -32,7 +32,7 @@ class IdSlots {
   private:
     std::size_t capacity_;
     AlignedArray<std::uint32_t> apart_;
-    AlignedArray<std::uint32_t> together_;  // made when first needed
+    AlignedArray<std::uint32_t> together_;  // made when first shared
     std::vector<std::size_t> ends_;         // of the parts, together
 };
 

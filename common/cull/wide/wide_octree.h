@@ -19,8 +19,7 @@ namespace swath {
 // Frusta are in the octree's coordinates: a leaf's edge is 1.
 //
 // One thread at a time. The team must outlive it and be idle when it is called; it takes part where that
-// pays (see sharing.h). Places for all codes are reserved, only those written cost
-// memory.
+// pays (see sharing.h). Places for all codes are reserved, only those written cost memory.
 class WideOctree {
   public:
     WideOctree(const UniformOctree& shape, ThreadTeam& team,

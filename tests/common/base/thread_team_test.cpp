@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "common/base/check.h"
 
@@ -83,6 +85,26 @@ TEST(ThreadTeam, LetsTheCallerDoWhatNobodyHasBegun) {
         team.run([&](std::size_t) { by_caller += std::this_thread::get_id() == caller; });
     // Member 0's own task, and at least some of the others': 63 threads do not wake in the time of one task.
     EXPECT_GT(by_caller, 100);
+}
+
+TEST(ThreadTeam, ThrowsWhatTheFirstMemberThrewWhenAllAreDoneAndForgetsIt) {
+    ThreadTeam team(4, kClock);
+    for (int round = 0; round < 200; ++round) {
+        std::atomic<int> done{0};
+        std::string thrown;
+        try {
+            team.run([&](std::size_t member) {
+                ++done;
+                if (member == 1 || member == 3) throw std::runtime_error(std::to_string(member));
+            });
+        } catch (const std::runtime_error& error) {
+            thrown = error.what();
+        }
+        EXPECT_EQ(thrown, "1");
+        EXPECT_EQ(done, 4);
+        team.run([&](std::size_t) { ++done; });
+        EXPECT_EQ(done, 8);
+    }
 }
 
 TEST(ThreadTeam, RefusesAMemberThatItDoesNotHaveOrThatIsAtWorkAndATeamOfNobody) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <span>
 
 #include "common/base/check.h"
 #include "common/geometry/frustum.h"
@@ -27,7 +29,18 @@ class LeafCullTest : public testing::Test {
             if (random.below(3) != 0) group.push_back(id);
         return group;
     }
-    // Leaf by leaf.
+    // What a loop over the group's leaves would draw.
+    std::vector<bool> not_outside(std::span<const ObjectId> group, const View& view, const Rect& rect) const {
+        const Frustum frustum = make_frustum(view, rect, scene_.bounds);
+        std::vector<bool> triangles(scene_.mesh.triangle_count());
+        for (const ObjectId id : group)
+            for (std::uint32_t i = 0; i < scene_.objects[id].leaf_count; ++i) {
+                const Leaf& leaf = scene_.leaves[scene_.objects[id].first_leaf + i];
+                if (outside(frustum, leaf.box)) continue;
+                std::fill_n(triangles.begin() + leaf.first_triangle, leaf.triangle_count, true);
+            }
+        return triangles;
+    }
     std::vector<bool> drawn(const DrawList& list) const {
         std::vector<bool> triangles(scene_.mesh.triangle_count());
         for (const DrawRun& run : list.runs)
@@ -51,19 +64,38 @@ TEST_F(LeafCullTest, DrawsTheGroupsLeavesThatAreNotOutsideWithEveryAlgorithm) {
             const View view = random.view(scene_);
             const Rect rect = random.rect(view);
             const std::vector<ObjectId> group = round % 2 == 0 ? all_ : some(random);
-            const Frustum frustum = make_frustum(view, rect, scene_.bounds);
-            std::vector<bool> expected(scene_.mesh.triangle_count());
-            for (const ObjectId id : group)
-                for (std::uint32_t i = 0; i < scene_.objects[id].leaf_count; ++i) {
-                    const Leaf& leaf = scene_.leaves[scene_.objects[id].first_leaf + i];
-                    if (outside(frustum, leaf.box)) continue;
-                    std::fill_n(expected.begin() + leaf.first_triangle, leaf.triangle_count, true);
-                }
             const DrawList list = cull.cull(group, view, rect);
-            ASSERT_EQ(drawn(list), expected) << name_of(algorithm) << " " << round;
+            ASSERT_EQ(drawn(list), not_outside(group, view, rect)) << name_of(algorithm) << " " << round;
             partly += list.triangles > 0 && list.triangles < scene_.mesh.triangle_count() / 2 ? 1 : 0;
         }
         EXPECT_GT(partly, 10u);
+    }
+}
+
+TEST_F(LeafCullTest, KeepsToThatForViewsThatNoCameraHas) {
+    constexpr float kOdd[] = {0.0f,
+                              1e30f,
+                              -1e-41f,
+                              std::numeric_limits<float>::max(),
+                              std::numeric_limits<float>::infinity(),
+                              -std::numeric_limits<float>::infinity(),
+                              std::numeric_limits<float>::quiet_NaN()};
+    for (const CullAlgorithm algorithm :
+         {CullAlgorithm::kWide, CullAlgorithm::kA2ssb, CullAlgorithm::kAdsb}) {
+        LeafCull cull = culler(algorithm);
+        RandomViews random(9);
+        for (int round = 0; round < 70; ++round) {
+            View view = random.view(scene_);
+            const float odd = kOdd[round % 7];
+            if (round < 7)
+                view.clip_from_model = glm::mat4(odd);
+            else
+                for (int i = 0; i < 1 + round / 20; ++i)
+                    view.clip_from_model[static_cast<int>(random.below(4))]
+                                        [static_cast<int>(random.below(4))] = odd;
+            ASSERT_EQ(drawn(cull.cull(all_, view, view.viewport())), not_outside(all_, view, view.viewport()))
+                << name_of(algorithm) << " " << round;
+        }
     }
 }
 

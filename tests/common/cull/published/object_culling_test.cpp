@@ -54,7 +54,10 @@ TEST(OctreeCuller, FindsWhatALoopFindsOfAnyBoxesInAnyViewForAnyTeam) {
 
 TEST(OctreeCuller, WorksWithEveryPublishedAlgorithm) {
     const std::vector<Frustum> views = frusta();
-    const std::vector<Box> boxes = BoxMaker(5).scattered(3'000, 2);
+    std::vector<Box> boxes = BoxMaker(5).scattered(3'000, 2);
+    // Some that are too large for cells.
+    for (const Box& box : BoxMaker(6).scattered(100, 200)) boxes.push_back(box);
+    ASSERT_LT(ObjectCells(boxes).first_of_no_cell(), boxes.size() - 50);
     ThreadTeam team(3, kClock);
     for (const PublishedAlgorithm algorithm :
          {PublishedAlgorithm::kAdsb, PublishedAlgorithm::kAlgo1, PublishedAlgorithm::kAlgo2,
