@@ -17,9 +17,9 @@ std::uint32_t gather(std::uint32_t v) {
 
 }  // namespace
 
-std::uint32_t morton_code(const OctreeCell& cell) { return interleave(cell.x, cell.z, cell.y); }
+std::uint32_t octree_code(const OctreeCell& cell) { return interleave(cell.x, cell.z, cell.y); }
 
-OctreeCell morton_cell(std::uint32_t code) { return {gather(code), gather(code >> 2), gather(code >> 1)}; }
+OctreeCell octree_cell(std::uint32_t code) { return {gather(code), gather(code >> 2), gather(code >> 1)}; }
 
 UniformOctree::UniformOctree(int height) : height_(height) {
     CHECK(height >= 0);
@@ -29,7 +29,7 @@ UniformOctree::UniformOctree(int height) : height_(height) {
 std::uint64_t UniformOctree::node_count() const { return ((std::uint64_t{8} << 3 * height_) - 1) / 7; }
 
 Box UniformOctree::box_of(int level, std::uint32_t code) const {
-    const OctreeCell cell = morton_cell(code);
+    const OctreeCell cell = octree_cell(code);
     const float size = static_cast<float>(1u << (height_ - level));
     const glm::vec3 low = size * glm::vec3(cell.x, cell.y, cell.z);
     return {low, low + size};

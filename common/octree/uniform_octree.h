@@ -16,8 +16,8 @@ struct OctreeCell {
 // A cell's Morton code: three bits a level, the root's child first. Within a triple the bits are those of the
 // papers' child numbers: 1 = x, 2 = z, 4 = y (A2SSB, figures 3.7 and 3.8), so not those of
 // common/geometry/morton.h. Coordinates are below 2^10.
-std::uint32_t morton_code(const OctreeCell& cell);
-OctreeCell morton_cell(std::uint32_t code);
+std::uint32_t octree_code(const OctreeCell& cell);
+OctreeCell octree_cell(std::uint32_t code);
 
 // The uniform octree of both culling papers (ADSB, section 3; A2SSB, section 3.5): every leaf at the same
 // level, every node there. It is implicit: a node is its level (0 is the root) and its Morton code, below

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <span>
 
+#include "common/base/sharing.h"
 #include "common/base/thread_team.h"
-#include "common/cull/wide/sharing.h"
 #include "common/resource/histograms.h"
 #include "common/resource/scratch.h"
 

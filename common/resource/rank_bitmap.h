@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/base/instruction_set.h"
+#include "common/base/sharing.h"
 #include "common/base/thread_team.h"
-#include "common/cull/wide/sharing.h"
 #include "common/resource/key_order.h"
 #include "common/resource/scratch.h"
 

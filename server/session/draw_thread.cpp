@@ -28,7 +28,8 @@ void DrawThread::load(Mesh mesh, int octree_depth, CullAlgorithm cull, RendererK
                   done = std::move(done)] {
         try {
             scene_ = build_objects(std::move(*mesh), {octree_depth, 0});
-            cull_ = std::make_unique<LeafCull>(cull, scene_, team_);
+            team_ = std::make_unique<ThreadTeam>(cull == CullAlgorithm::kNone ? 1 : cull_threads_, clock_);
+            cull_ = std::make_unique<LeafCull>(cull, scene_, *team_);
             auto renderer = factory_(kind, scene_);
             if (!renderer) return done(tl::unexpected(renderer.error()));
             renderer_ = std::move(*renderer);

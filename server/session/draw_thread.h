@@ -45,7 +45,7 @@ class DrawThread {
   public:
     // `cull_threads` cull together, this one among them; at least 1.
     DrawThread(RendererFactory factory, std::size_t cull_threads, const Clock& clock)
-        : factory_(std::move(factory)), clock_(clock), team_(cull_threads, clock) {}
+        : factory_(std::move(factory)), clock_(clock), cull_threads_(cull_threads) {}
     ~DrawThread();
 
     // Runs something slow that needs no scene, e.g. reading a model.
@@ -60,7 +60,8 @@ class DrawThread {
 
     RendererFactory factory_;
     const Clock& clock_;
-    ThreadTeam team_;                     // of thread_
+    std::size_t cull_threads_;
+    std::unique_ptr<ThreadTeam> team_;    // of thread_
     ObjectSet scene_;                     // of thread_
     std::unique_ptr<LeafCull> cull_;      // of thread_
     std::unique_ptr<Renderer> renderer_;  // of thread_

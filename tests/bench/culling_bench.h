@@ -24,7 +24,7 @@ struct CullingBench {
 
 // same_nodes_*, a2ssb_2t, early_out_*.
 Status bench_trees(CullingBench& bench);
-// objects_*, cull_sort_1m.
+// objects_*, refit_1m_ms, cull_sort_1m.
 Status bench_objects(CullingBench& bench);
 // sort_1m_vs_std.
 Status bench_sorts(CullingBench& bench);

@@ -37,12 +37,14 @@ class Adsb final : public PublishedWalk {
   private:
     Member<Node>& main() { return members_[0]; }
 
-    // Everybody else gets his share of the main processor's list, which keeps the rest, and starts at once.
+    // Everybody else gets his share of the main processor's list, which keeps the rest. All is dealt out
+    // before anybody starts, so that nobody is at work if there is no memory for it.
     void start_others() {
         WalkQueue<Node>& list = *main().queue;
         const std::size_t share = (list.tail - list.head) / members_.size();
-        for (std::size_t i = 1; i < members_.size(); ++i) {
+        for (std::size_t i = 1; i < members_.size(); ++i)
             for (std::size_t n = 0; n < share; ++n) add(*members_[i].queue, take(list));
+        for (std::size_t i = 1; i < members_.size(); ++i) {
             team_.set_task(i, [this, i] { work(i); });
             team_.start(i);
         }

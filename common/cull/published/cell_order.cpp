@@ -49,7 +49,7 @@ CellOrder cell_order(std::span<const Box> boxes) {
     for (MortonKey& entry : order.placed) {
         const glm::dvec3 at = (centre_of(boxes[entry.index]) - order.origin) * (cells / order.side);
         const glm::uvec3 cell(glm::clamp(at, glm::dvec3(0), glm::dvec3(cells - 1)));
-        entry.code = morton_code({cell.x, cell.y, cell.z});
+        entry.code = octree_code({cell.x, cell.y, cell.z});
     }
     sort_by_code(order.placed);
 

@@ -52,7 +52,7 @@ ObjectCells::ObjectCells(std::span<const Box> boxes) {
         outside_of_cells = order.unplaced;
         for (MortonKey entry : order.placed) {
             entry.code >>= 3 * (UniformOctree::kMaxHeight - height);
-            if (fits(boxes[entry.index], morton_cell(entry.code), origin_, leaf_edge_))
+            if (fits(boxes[entry.index], octree_cell(entry.code), origin_, leaf_edge_))
                 inside.push_back(entry);
             else
                 outside_of_cells.push_back(entry.index);

@@ -5,7 +5,7 @@
 
 namespace swath {
 
-// Nodes of one level of a UniformOctree, as kernels take them: Morton codes, and cells (see morton_cell)
+// Nodes of one level of a UniformOctree, as kernels take them: Morton codes, and cells (see octree_cell)
 // packed into a word: x, y and z in 10 bits each, x lowest.
 struct OctreeNodes {
     std::uint32_t* codes;

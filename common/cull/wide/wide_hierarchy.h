@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "common/base/instruction_set.h"
+#include "common/base/sharing.h"
 #include "common/base/thread_team.h"
 #include "common/cull/wide/box_blocks.h"
 #include "common/cull/wide/hierarchy_kernel.h"
 #include "common/cull/wide/id_slots.h"
-#include "common/cull/wide/sharing.h"
 #include "common/geometry/frustum.h"
 
 namespace swath {

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "common/base/instruction_set.h"
+#include "common/base/sharing.h"
 #include "common/base/thread_team.h"
 #include "common/cull/wide/id_slots.h"
 #include "common/cull/wide/octree_kernel.h"
-#include "common/cull/wide/sharing.h"
 #include "common/geometry/frustum.h"
 #include "common/octree/uniform_octree.h"
 

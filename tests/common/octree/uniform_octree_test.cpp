@@ -49,12 +49,12 @@ TEST(UniformOctree, FindsACellsCodeAndBack) {
     std::mt19937 random(2);
     for (int round = 0; round < 10'000; ++round) {
         const auto code = static_cast<std::uint32_t>(random() % (1u << 30));
-        EXPECT_EQ(morton_code(morton_cell(code)), code);
+        EXPECT_EQ(octree_code(octree_cell(code)), code);
     }
-    EXPECT_EQ(morton_cell(0b100'010'001), (OctreeCell{1, 4, 2}));
-    EXPECT_EQ(morton_code({1023, 1023, 1023}), (1u << 30) - 1);
+    EXPECT_EQ(octree_cell(0b100'010'001), (OctreeCell{1, 4, 2}));
+    EXPECT_EQ(octree_code({1023, 1023, 1023}), (1u << 30) - 1);
     const UniformOctree tree(10);
-    EXPECT_EQ(tree.box_of(10, morton_code({1023, 7, 512})), (Box{{1023, 7, 512}, {1024, 8, 513}}));
+    EXPECT_EQ(tree.box_of(10, octree_code({1023, 7, 512})), (Box{{1023, 7, 512}, {1024, 8, 513}}));
 }
 
 TEST(UniformOctree, RefusesAHeightThatItsCodesCannotHold) {

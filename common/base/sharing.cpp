@@ -1,4 +1,4 @@
-#include "common/cull/wide/sharing.h"
+#include "common/base/sharing.h"
 
 #include <algorithm>
 
