@@ -19,7 +19,7 @@ std::uint32_t id_of(std::uint64_t entry) { return static_cast<std::uint32_t>(ent
 std::uint32_t key_of(std::uint64_t entry) { return static_cast<std::uint32_t>(entry >> 32); }
 
 // Packs the part and counts its first kDigits digits.
-template <int kDigits>
+template <std::size_t kDigits>
 void pack_and_count(std::span<const std::uint32_t> visible, const std::uint32_t* keys, Part part,
                     RadixDigits digits, std::array<std::uint32_t*, RadixDigits::kMax> counts,
                     std::uint64_t* to) {
@@ -28,7 +28,7 @@ void pack_and_count(std::span<const std::uint32_t> visible, const std::uint32_t*
         __builtin_prefetch(keys + visible[read_ahead(i, part)]);
         std::uint32_t key = keys[id];
         to[i] = pack(key, id);
-        for (int digit = 0; digit < kDigits; ++digit) {
+        for (std::size_t digit = 0; digit < kDigits; ++digit) {
             ++counts[digit][key & ((1u << digits.bits[digit]) - 1)];
             key >>= digits.bits[digit];
         }
@@ -61,9 +61,9 @@ RadixDigits radix_digits(std::uint64_t points) {
     CHECK(points <= std::uint64_t{1} << 32);
     int left = points == 0 ? 0 : static_cast<int>(std::bit_width(points - 1));
     RadixDigits digits;
-    digits.count = (left + RadixDigits::kMaxBits - 1) / RadixDigits::kMaxBits;
-    for (int i = 0; i < digits.count; ++i) {
-        const int remaining = digits.count - i;
+    digits.count = static_cast<std::size_t>((left + RadixDigits::kMaxBits - 1) / RadixDigits::kMaxBits);
+    for (std::size_t i = 0; i < digits.count; ++i) {
+        const auto remaining = static_cast<int>(digits.count - i);
         digits.bits[i] = (left + remaining - 1) / remaining;
         left -= digits.bits[i];
     }
@@ -81,17 +81,17 @@ std::span<const std::uint32_t> RadixSort::sort(std::span<const std::uint32_t> vi
     if (digits_.count == 0) return visible;
     const double work = kIdNs * static_cast<double>(size);
     const std::size_t parts = std::min(parts_for(size, kIdsPerPart, team_), sharing_.members(work));
-    for (int digit = 0; digit < digits_.count; ++digit)
+    for (std::size_t digit = 0; digit < digits_.count; ++digit)
         histograms_[digit].resize(parts, std::size_t{1} << digits_.bits[digit]);
     std::uint64_t* from = packed_[0].room(size);
     std::uint64_t* to = digits_.count > 1 ? packed_[1].room(size) : nullptr;
     std::uint32_t* const sorted = sorted_.room(size);
 
     // A single part counts all digits while it is at it. Of several, what is in each changes with every pass.
-    const int counted = parts == 1 ? digits_.count : 1;
+    const std::size_t counted = parts == 1 ? digits_.count : 1;
     run_parts(team_, parts, [&](std::size_t part) {
         std::array<std::uint32_t*, RadixDigits::kMax> counts{};
-        for (int digit = 0; digit < counted; ++digit) {
+        for (std::size_t digit = 0; digit < counted; ++digit) {
             counts[digit] = histograms_[digit].row(part);
             std::fill_n(counts[digit], histograms_[digit].cells(), 0u);
         }
@@ -100,7 +100,7 @@ std::span<const std::uint32_t> RadixSort::sort(std::span<const std::uint32_t> vi
         if (counted == 2) pack_and_count<2>(visible, keys_.data(), range, digits_, counts, from);
         if (counted == 3) pack_and_count<3>(visible, keys_.data(), range, digits_, counts, from);
     });
-    for (int digit = 0; digit < digits_.count; ++digit) {
+    for (std::size_t digit = 0; digit < digits_.count; ++digit) {
         Histograms& histograms = histograms_[digit];
         const int bits = digits_.bits[digit];
         const std::uint32_t mask = (1u << bits) - 1;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -14,9 +15,9 @@ namespace swath {
 // (131,072 keys: 9 and 8 bits). One key needs no digit.
 struct RadixDigits {
     static constexpr int kMaxBits = 11;  // 2048 counters, and as many places written to: about what L1 takes
-    static constexpr int kMax = 3;
+    static constexpr std::size_t kMax = 3;
     std::array<int, kMax> bits{};
-    int count = 0;
+    std::size_t count = 0;
 
     bool operator==(const RadixDigits&) const = default;
 };

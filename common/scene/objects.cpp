@@ -37,7 +37,7 @@ void sort(std::vector<MortonKey>& keys, const Mesh& mesh) {
     std::vector<MortonKey> by_material(keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i)
         by_material[i] = {mesh.materials[keys[i].index], static_cast<std::uint32_t>(i)};
-    sort_by_code(by_material, std::bit_width(*std::ranges::max_element(mesh.materials)));
+    sort_by_code(by_material, static_cast<int>(std::bit_width(*std::ranges::max_element(mesh.materials))));
     std::vector<MortonKey> sorted;
     sorted.reserve(keys.size());
     for (const MortonKey& material : by_material) sorted.push_back(keys[material.index]);

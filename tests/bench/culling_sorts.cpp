@@ -102,7 +102,7 @@ Status bench_sorts(CullingBench& bench) {
     std::vector<double> least;
     std::string scene;
     std::vector<Race> races;
-    for (const std::size_t per_mille : {1, 9, 90, 330, 990}) {
+    for (const std::size_t per_mille : {1u, 9u, 90u, 330u, 990u}) {
         const auto visible = some_of(count, count * per_mille / 1000, 2);
         const SortMethod method = (*sorts)->method_for(visible.size());
         const auto race =

@@ -50,7 +50,7 @@ class LeafCullTest : public testing::Test {
 
     const ObjectSet scene_ = test::soup(7);
     const std::vector<ObjectId> all_ = all_ids(scene_);
-    const SteadyClock clock_;
+    const SteadyClock clock_{};
     ThreadTeam team_{3, clock_};
 };
 

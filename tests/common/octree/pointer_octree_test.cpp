@@ -47,7 +47,7 @@ TEST(PointerOctree, StoresEveryNodeOfTheUniformTreeInAnyOrder) {
                 }
             }
             std::ranges::sort(nodes);
-            EXPECT_EQ(std::ranges::unique(nodes).begin(), nodes.end());
+            EXPECT_EQ(std::unique(nodes.begin(), nodes.end()), nodes.end());
         }
 }
 
