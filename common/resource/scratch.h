@@ -12,9 +12,11 @@ class Scratch {
     // Room for at least `size`, uninitialised.
     T* room(std::size_t size) {
         if (size > capacity_) {
-            capacity_ = size > 2 * capacity_ ? size : 2 * capacity_;
+            const std::size_t capacity = size > 2 * capacity_ ? size : 2 * capacity_;
             data_.reset();  // the old block may serve for the new one
-            data_ = std::make_unique_for_overwrite<T[]>(capacity_);
+            capacity_ = 0;  // and stays so if there is no memory
+            data_ = std::make_unique_for_overwrite<T[]>(capacity);
+            capacity_ = capacity;
         }
         return data_.get();
     }

@@ -25,9 +25,10 @@ std::span<const std::uint32_t> FlatScan::cull(const Frustum& frustum) {
     const std::size_t members = sharing_.members(expected_ns);
     const std::size_t count = blocks_.block_count();
     const std::size_t parts = members == 1 ? 1 : std::min(count, kPartsAMember * members);
+    const auto first_of = [&](std::size_t part) { return part * count / parts; };
     const auto scan = [&](std::size_t part) {
-        const std::size_t first = part * count / parts;
-        const std::size_t last = (part + 1) * count / parts;
+        const std::size_t first = first_of(part);
+        const std::size_t last = first_of(part + 1);
         const std::size_t boxes = std::min(16 * last, std::size_t{blocks_.size()}) - 16 * first;
         std::uint32_t* const out = ids_.data() + 16 * first;
         const std::uint32_t* const end =
@@ -40,7 +41,7 @@ std::span<const std::uint32_t> FlatScan::cull(const Frustum& frustum) {
         visible = ids_.first(scan(0));
     } else {
         begins_.resize(parts);
-        for (std::size_t part = 0; part < parts; ++part) begins_[part] = 16 * (part * count / parts);
+        for (std::size_t part = 0; part < parts; ++part) begins_[part] = 16 * first_of(part);
         visible = ids_.share(team_, members, begins_, scan);
     }
     sharing_.done(expected_ns);
