@@ -114,8 +114,9 @@ void ThreadTeam::wait() {
     if (first) std::rethrow_exception(first);
 }
 
-void ThreadTeam::run(const std::function<void(std::size_t member)>& task) {
-    for (std::size_t i = size(); i-- > 0;) {
+void ThreadTeam::run(std::size_t members, const std::function<void(std::size_t member)>& task) {
+    CHECK(members <= size());
+    for (std::size_t i = members; i-- > 0;) {
         members_[i]->task = [&task, i] { task(i); };
         start(i);
     }

@@ -39,8 +39,10 @@ class ThreadTeam {
     // member's), when all are done.
     void wait();
 
-    // The same task for every member, started and waited for. The order in which members begin is open.
-    void run(const std::function<void(std::size_t member)>& task);
+    // The same task for every member, or the first `members`, started and waited for. The order in which they
+    // begin is open.
+    void run(const std::function<void(std::size_t member)>& task) { run(size(), task); }
+    void run(std::size_t members, const std::function<void(std::size_t member)>& task);
 
     // When the member's last task began and ended, whoever did it. Valid after wait().
     Nanoseconds start_time(std::size_t member) const { return members_[member]->begin; }

@@ -32,11 +32,7 @@ inline std::size_t parts_for(std::size_t size, std::size_t least, const ThreadTe
 template <class Task>
 void run_parts(ThreadTeam& team, std::size_t parts, const Task& task) {
     if (parts == 1) return task(std::size_t{0});
-    for (std::size_t i = parts; i-- > 0;) {
-        team.set_task(i, [&task, i] { task(i); });
-        team.start(i);
-    }
-    team.wait();
+    team.run(parts, task);
 }
 
 }  // namespace swath

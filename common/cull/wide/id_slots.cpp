@@ -27,7 +27,6 @@ std::span<const std::uint32_t> IdSlots::share(ThreadTeam& team, std::size_t memb
                                               std::span<const std::size_t> begins,
                                               const std::function<std::size_t(std::size_t)>& work) {
     CHECK(members >= std::size_t{1});
-    CHECK(members <= team.size());
     const std::size_t parts = begins.size();
     if (parts == 0) return {};
     ends_.resize(parts);
@@ -48,7 +47,7 @@ std::span<const std::uint32_t> IdSlots::share(ThreadTeam& team, std::size_t memb
         counted.store(true);  // sequentially consistent, see announce() in thread_team.cpp
         counted.notify_all();
     };
-    const auto task = [&] {
+    const auto task = [&](std::size_t /*member*/) {
         for (std::size_t i = next++; i < parts; i = next++) {
             ends_[i] = work(i);
             if (left.fetch_sub(1, std::memory_order_acq_rel) == 1) count();
@@ -62,11 +61,7 @@ std::span<const std::uint32_t> IdSlots::share(ThreadTeam& team, std::size_t memb
                             (ends_[i] - to) * sizeof(std::uint32_t));
         }
     };
-    for (std::size_t member = members; member-- > 0;) {
-        team.set_task(member, [&task] { task(); });
-        team.start(member);
-    }
-    team.wait();
+    team.run(members, task);
     return {gaps ? together_.data() : apart_.data(), ends_.back()};
 }
 

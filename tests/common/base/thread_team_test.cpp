@@ -65,6 +65,14 @@ TEST(ThreadTeam, StartsOnlyWhomItIsToldTo) {
     EXPECT_EQ(done, 7);
 }
 
+TEST(ThreadTeam, RunsTheFirstMembersOnly) {
+    ThreadTeam team(4, kClock);
+    std::atomic<int> done{0};
+    team.run(2, [&](std::size_t member) { done += 1 << member; });
+    EXPECT_EQ(done, 3);
+    EXPECT_THROW(team.run(5, [](std::size_t) {}), CheckFailed);
+}
+
 TEST(ThreadTeam, KnowsWhenEachMemberBeganAndEnded) {
     ThreadTeam team(5, kClock);
     const Nanoseconds before = kClock.now();
