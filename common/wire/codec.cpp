@@ -97,6 +97,13 @@ struct Encoder {
         out.set_servers(m.servers);
         out.set_format(static_cast<std::uint32_t>(m.format));
         out.set_frames_in_flight(m.frames_in_flight);
+        out.set_live(m.live);
+    }
+    void operator()(const Reconfigure& m) const {
+        pb::Reconfigure& out = *head.mutable_reconfigure();
+        out.set_octree_depth(static_cast<std::uint32_t>(m.octree_depth));
+        out.set_renderer(static_cast<std::uint32_t>(m.renderer));
+        out.set_cull(static_cast<std::uint32_t>(m.cull) + 1);
     }
     void operator()(const NeedModel& m) const { head.mutable_need_model()->set_offset(m.offset); }
     void operator()(const ModelPart& m) const { head.mutable_model_part()->set_offset(m.offset); }
@@ -105,6 +112,7 @@ struct Encoder {
         out.set_objects(m.objects);
         out.set_triangles(m.triangles);
         out.set_description(m.description);
+        out.set_refused(m.refused.substr(0, kMaxNameBytes));
     }
     void operator()(const Connect&) const { head.mutable_connect(); }
     void operator()(const Connected&) const { head.mutable_connected(); }
@@ -135,6 +143,7 @@ struct Encoder {
         out.set_background(std::uint32_t{m.background[0]} << 16 | std::uint32_t{m.background[1]} << 8 |
                            m.background[2]);
         put_exchanges(m.tiles, *out.mutable_tiles());
+        out.set_stream(m.stream);
     }
     void operator()(const SwathPixels& m) const { put_pixels(m, *head.mutable_swath()); }
     void operator()(const TilePixels& m) const { put_pixels(m, *head.mutable_tile()); }
@@ -144,6 +153,12 @@ struct Encoder {
         out.mutable_visible()->Add(m.visible.begin(), m.visible.end());
     }
     void operator()(const DisplayReport& m) const { put_report(m, *head.mutable_display_report()); }
+    void operator()(const Audience& m) const { head.mutable_audience()->set_viewers(m.viewers); }
+    void operator()(const Wish& m) const { head.mutable_wish()->set_viewer(m.viewer); }
+    void operator()(const Note& m) const {
+        head.mutable_note()->set_topic(static_cast<std::uint32_t>(m.topic));
+        head.mutable_note()->set_frame(m.frame);
+    }
     void operator()(const Failed& m) const {
         head.mutable_failed()->set_what(m.what.substr(0, kMaxNameBytes));
     }
@@ -266,6 +281,17 @@ Result<Message> get_hello(const pb::Hello& in) {
                  in.max_body_bytes()};
 }
 
+// What a ServerSetup and a Reconfigure say of cutting, drawing and culling.
+template <class M>
+Result<Reconfigure> get_drawing(const M& in) {
+    if (in.octree_depth() > static_cast<std::uint32_t>(kMaxOctreeDepth))
+        return fail("octree_depth: {}, the limit is {}", in.octree_depth(), kMaxOctreeDepth);
+    if (in.renderer() < 1 || in.renderer() > 2) return fail("renderer: {} is none", in.renderer());
+    if (in.cull() < 1 || in.cull() > kCullAlgorithmCount) return fail("cull: {} is none", in.cull());
+    return Reconfigure{static_cast<int>(in.octree_depth()), static_cast<RendererKind>(in.renderer()),
+                       static_cast<CullAlgorithm>(in.cull() - 1)};
+}
+
 Result<Message> get_server_setup(const pb::ServerSetup& in) {
     ServerSetup m;
     m.session = in.session();
@@ -278,13 +304,11 @@ Result<Message> get_server_setup(const pb::ServerSetup& in) {
         return fail("digest: {} bytes where {} are expected", in.digest().size(), m.digest.size());
     std::memcpy(m.digest.data(), in.digest().data(), m.digest.size());
     m.blob_bytes = in.blob_bytes();
-    if (in.octree_depth() > static_cast<std::uint32_t>(kMaxOctreeDepth))
-        return fail("octree_depth: {}, the limit is {}", in.octree_depth(), kMaxOctreeDepth);
-    m.octree_depth = static_cast<int>(in.octree_depth());
-    if (in.renderer() < 1 || in.renderer() > 2) return fail("renderer: {} is none", in.renderer());
-    m.renderer = static_cast<RendererKind>(in.renderer());
-    if (in.cull() < 1 || in.cull() > kCullAlgorithmCount) return fail("cull: {} is none", in.cull());
-    m.cull = static_cast<CullAlgorithm>(in.cull() - 1);
+    const auto drawing = get_drawing(in);
+    if (!drawing) return tl::unexpected(drawing.error());
+    m.octree_depth = drawing->octree_depth;
+    m.renderer = drawing->renderer;
+    m.cull = drawing->cull;
     if (in.servers_size() < 1 || static_cast<std::size_t>(in.servers_size()) > kMaxServers)
         return fail("servers: {}, the limits are 1 and {}", in.servers_size(), kMaxServers);
     for (const std::string& s : in.servers()) {
@@ -306,7 +330,7 @@ Result<Message> get_display_setup(const pb::DisplaySetup& in) {
         return fail("format: {} is none", in.format());
     if (const auto s = check_in_flight(in.frames_in_flight()); !s) return tl::unexpected(s.error());
     return DisplaySetup{in.session(), in.servers(), static_cast<PictureFormat>(in.format()),
-                        in.frames_in_flight()};
+                        in.frames_in_flight(), in.live()};
 }
 
 Result<View> get_view(const pb::RenderFrame& in) {
@@ -383,7 +407,14 @@ Result<Message> get_assemble_frame(const pb::AssembleFrame& in) {
     for (const Exchange& e : m.tiles)
         if (const auto s = check_inside(e.region, {0, 0, m.width, m.height}, "tiles", "picture"); !s)
             return tl::unexpected(s.error());
+    if (in.stream() >= kMaxStreams) return fail("stream: {}, the limit is {}", in.stream(), kMaxStreams);
+    m.stream = in.stream();
     return m;
+}
+
+Result<Message> get_note(const pb::Note& in) {
+    if (in.topic() < 1 || in.topic() > kNoteTopicCount) return fail("topic: {} is none", in.topic());
+    return Note{static_cast<NoteTopic>(in.topic()), in.frame()};
 }
 
 Result<Message> get_message(const pb::Head& head) {
@@ -411,7 +442,10 @@ Result<Message> get_message(const pb::Head& head) {
         case pb::Head::kReady:
             if (const auto s = check_text(head.ready().description(), "description"); !s)
                 return tl::unexpected(s.error());
-            return Ready{head.ready().objects(), head.ready().triangles(), head.ready().description()};
+            if (const auto s = check_text(head.ready().refused(), "refused"); !s)
+                return tl::unexpected(s.error());
+            return Ready{head.ready().objects(), head.ready().triangles(), head.ready().description(),
+                         head.ready().refused()};
         case pb::Head::kConnect:
             return Connect{};
         case pb::Head::kConnected:
@@ -433,6 +467,16 @@ Result<Message> get_message(const pb::Head& head) {
             return Failed{head.failed().what()};
         case pb::Head::kBye:
             return Bye{};
+        case pb::Head::kReconfigure: {
+            const auto drawing = get_drawing(head.reconfigure());
+            return drawing ? Result<Message>(*drawing) : tl::unexpected(drawing.error());
+        }
+        case pb::Head::kAudience:
+            return Audience{head.audience().viewers()};
+        case pb::Head::kWish:
+            return Wish{head.wish().viewer()};
+        case pb::Head::kNote:
+            return get_note(head.note());
         case pb::Head::KIND_NOT_SET:
             break;
     }
@@ -499,7 +543,8 @@ std::string_view name(const Message& message) {
     static constexpr std::array<std::string_view, std::variant_size_v<Message>> kNames{
         "Hello",       "Ping",       "Pong",         "ServerSetup",   "DisplaySetup", "NeedModel",
         "ModelPart",   "Ready",      "Connect",      "Connected",     "RenderFrame",  "AssembleFrame",
-        "SwathPixels", "TilePixels", "ServerReport", "DisplayReport", "Failed",       "Bye"};
+        "SwathPixels", "TilePixels", "ServerReport", "DisplayReport", "Failed",       "Bye",
+        "Reconfigure", "Audience",   "Wish",         "Note"};
     return kNames[message.index()];
 }
 

@@ -74,7 +74,16 @@ struct DisplaySetup {
     std::uint32_t servers = 1;
     PictureFormat format = PictureFormat::kNone;
     std::uint32_t frames_in_flight = 2;
+    bool live = false;  // the client takes wishes
     bool operator==(const DisplaySetup&) const = default;
+};
+// Client to server, while no frame is open: cut, draw and cull like this from now on. Ready answers; a server
+// that cannot has changed nothing and says why in its `refused`.
+struct Reconfigure {
+    int octree_depth = 0;
+    RendererKind renderer = RendererKind::kOsmesa;
+    CullAlgorithm cull = CullAlgorithm::kWide;
+    bool operator==(const Reconfigure&) const = default;
 };
 // Server to client: send the model's blob from `offset`. Client to server: a part of it, as the body.
 struct NeedModel {
@@ -90,7 +99,9 @@ inline constexpr std::uint32_t kModelPartBytes = 4u << 20;
 struct Ready {
     std::uint64_t objects = 0;
     std::uint64_t triangles = 0;
-    std::string description;  // of the renderer, for people
+    std::string
+        description;      // a server's: of the renderer, for people; a display's: address of its page, if any
+    std::string refused;  // why a Reconfigure cannot be done; else empty
     bool operator==(const Ready&) const = default;
 };
 // Client to server, when all are ready: connect to the display and to the servers with smaller ids. Connected
@@ -127,8 +138,11 @@ struct AssembleFrame {
     int height = 0;
     Rgb background{};
     std::vector<Exchange> tiles;
+    std::uint32_t stream =
+        0;  // which of kMaxStreams pictures side by side this is the newest of, for viewers
     bool operator==(const AssembleFrame&) const = default;
 };
+inline constexpr std::uint32_t kMaxStreams = 2;
 
 // Server to server and server to display: pixels of a frame, as the body (common/image/pixel_codec.h).
 struct SwathPixels {
@@ -161,6 +175,29 @@ struct DisplayReport : Report {
     bool operator==(const DisplayReport&) const = default;
 };
 
+// Display to client: how many people look, when a session begins and at every change. Only then do notes find
+// anybody.
+struct Audience {
+    std::uint32_t viewers = 0;
+    bool operator==(const Audience&) const = default;
+};
+// Display to client: what the leading viewer wants, as the body (JSON, docs/viewer.md), at most
+// kMaxWishBytes.
+struct Wish {
+    std::uint32_t viewer = 0;  // who
+    bool operator==(const Wish&) const = default;
+};
+inline constexpr std::size_t kMaxWishBytes = std::size_t{16} << 10;
+// Client to display: something for viewers, as the body (JSON, docs/viewer.md), at most kMaxNoteBytes.
+enum class NoteTopic : std::uint32_t { kPlan = 1, kSession, kObjects, kState, kFrame, kSpeedup, kTrace };
+inline constexpr std::uint32_t kNoteTopicCount = 7;
+struct Note {
+    NoteTopic topic = NoteTopic::kPlan;
+    FrameNumber frame = 0;  // kPlan: whose, sent before its AssembleFrame
+    bool operator==(const Note&) const = default;
+};
+inline constexpr std::size_t kMaxNoteBytes = std::size_t{8} << 20;
+
 // The sender cannot go on and closes; one line for a person.
 struct Failed {
     std::string what;
@@ -173,7 +210,7 @@ struct Bye {
 
 using Message = std::variant<Hello, Ping, Pong, ServerSetup, DisplaySetup, NeedModel, ModelPart, Ready,
                              Connect, Connected, RenderFrame, AssembleFrame, SwathPixels, TilePixels,
-                             ServerReport, DisplayReport, Failed, Bye>;
+                             ServerReport, DisplayReport, Failed, Bye, Reconfigure, Audience, Wish, Note>;
 std::string_view name(const Message& message);
 
 }  // namespace swath

@@ -117,10 +117,29 @@ TEST(WireLimit, OfDisplaySetup) {
                  in + "frames_in_flight: 9, the limits are 1 and 8");
 }
 
+TEST(WireLimit, OfReconfigure) {
+    const Table<pb::Reconfigure> drawing(Reconfigure{}, &pb::Head::mutable_reconfigure);
+    const std::string in = "a garbled reconfigure message: ";
+    drawing.expect([](auto& m) { m.set_octree_depth(11); }, in + "octree_depth: 11, the limit is 10");
+    drawing.expect([](auto& m) { m.set_renderer(3); }, in + "renderer: 3 is none");
+    drawing.expect([](auto& m) { m.set_cull(0); }, in + "cull: 0 is none");
+}
+
+TEST(WireLimit, OfNotesAndStreams) {
+    const Table<pb::Note> note(Note{}, &pb::Head::mutable_note);
+    note.expect([](auto& m) { m.set_topic(0); }, "a garbled note message: topic: 0 is none");
+    note.expect([](auto& m) { m.set_topic(8); }, "a garbled note message: topic: 8 is none");
+    const Table<pb::AssembleFrame> frame(AssembleFrame{1, 2, 2, {}, {}}, &pb::Head::mutable_assemble_frame);
+    frame.expect([](auto& m) { m.set_stream(2); },
+                 "a garbled assemble_frame message: stream: 2, the limit is 2");
+}
+
 TEST(WireLimit, OfTextsForPeople) {
     const Table<pb::Ready> ready(Ready{1, 2, "llvmpipe"}, &pb::Head::mutable_ready);
     ready.expect([](auto& m) { m.set_description(std::string(4097, 'x')); },
                  "a garbled ready message: description: 4097 bytes, the limit is 4096");
+    ready.expect([](auto& m) { m.set_refused(std::string(4097, 'x')); },
+                 "a garbled ready message: refused: 4097 bytes, the limit is 4096");
     const Table<pb::Failed> failed(Failed{"why"}, &pb::Head::mutable_failed);
     failed.expect([](auto& m) { m.set_what(std::string(4097, 'x')); },
                   "a garbled failed message: what: 4097 bytes, the limit is 4096");

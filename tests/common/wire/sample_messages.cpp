@@ -97,8 +97,14 @@ class Maker {
     }
     DisplaySetup display_setup() {
         const auto format = static_cast<PictureFormat>(below(3));
-        return {u64(), 1 + below(kMaxServers), format, 1 + below(kMaxFramesInFlight)};
+        return {u64(), 1 + below(kMaxServers), format, 1 + below(kMaxFramesInFlight), below(2) == 0};
     }
+    Reconfigure reconfigure() {
+        return {static_cast<int>(below(kMaxOctreeDepth + 1)),
+                below(2) == 0 ? RendererKind::kOsmesa : RendererKind::kEgl,
+                static_cast<CullAlgorithm>(below(kCullAlgorithmCount))};
+    }
+    Note note() { return {static_cast<NoteTopic>(1 + below(kNoteTopicCount)), u64()}; }
     template <class M>
     M report() {
         M m;
@@ -136,7 +142,7 @@ std::vector<Message> sample_messages(std::uint32_t seed) {
     all.emplace_back(make.display_setup());
     all.emplace_back(NeedModel{make.u64()});
     all.emplace_back(ModelPart{make.u64()});
-    all.emplace_back(Ready{make.u64(), make.u64(), make.text()});
+    all.emplace_back(Ready{make.u64(), make.u64(), make.text(), make.text()});
     all.emplace_back(Connect{});
     all.emplace_back(Connected{});
     all.emplace_back(make.render_frame());
@@ -147,6 +153,10 @@ std::vector<Message> sample_messages(std::uint32_t seed) {
     all.emplace_back(make.report<DisplayReport>());
     all.emplace_back(Failed{make.text()});
     all.emplace_back(Bye{});
+    all.emplace_back(make.reconfigure());
+    all.emplace_back(Audience{make.u32()});
+    all.emplace_back(Wish{make.u32()});
+    all.emplace_back(make.note());
     return all;
 }
 
