@@ -1,0 +1,115 @@
+// The controls of a run: what can be chosen, what is chosen, and for what cannot be had the reason. Asks
+// nobody: shows what it is given and says what the person changes.
+
+import {whole} from './format.js';
+
+const kNames = {
+    'mahd': 'MAHD (sort-first)', 'kd-split': 'KD-split (sort-first)', 'sort-last': 'Sort-last', 'hybrid': 'Hybrid',
+    'osmesa': 'OSMesa', 'egl': 'EGL', 'wide': 'Wide', 'a2ssb': 'A2SSB', 'adsb': 'ADSB', 'none': 'None',
+    'orbit': 'Orbit', 'random': 'Random',
+};
+const kRenderers = ['osmesa', 'egl'];
+const kSizes = [[640, 480], [1280, 960], [1920, 1080]];
+const kSelects = ['algorithm', 'against', 'objects', 'size', 'renderer', 'cull', 'path'];
+const kNone = '';  // the value of an option that stands for null
+
+export class Controls {
+    #elements = {};
+    #reasons = new Map();  // field to why it could not be had
+    #on_change;
+    size = 'window';
+
+    // on_change(field, value); for 'size' the value is the mode: 'window', 'half' or 'WxH'.
+    constructor(on_change) {
+        this.#on_change = on_change;
+        for (const field of [...kSelects, 'servers']) {
+            const element = this.#elements[field] = document.getElementById(field);
+            element.addEventListener(field === 'servers' ? 'input' : 'change', () => this.#changed(field));
+        }
+    }
+
+    // A field of the wish that was refused: the reason stays until the person chooses anew.
+    refuse(field, reason) {
+        this.#reasons.set(['width', 'height'].includes(field) ? 'size' : field, String(reason));
+    }
+
+    forget() { this.#reasons.clear(); }
+
+    // `values` is the wish or the state that counts, `why` the reason why nothing can be chosen, or ''.
+    update(session, values, why) {
+        const choices = session?.choices ?? {};
+        const many = session?.servers?.length ?? 1;
+        this.#fill('algorithm', (choices.algorithms ?? []).map((name) => option(name)), values.algorithm);
+        this.#fill('against', [option(kNone, 'Nothing'), ...(choices.algorithms ?? []).map((name) =>
+            option(name, undefined, name === values.algorithm ? 'is the first' : ''))], values.against ?? kNone);
+        const counts = [...new Set([...(choices.objects ?? []), ...(values.objects ? [values.objects] : [])])];
+        this.#fill('objects', counts.sort((a, b) => a - b).map((count) =>
+            option(String(count), `about ${whole(count)}`)), String(values.objects ?? ''));
+        this.#fill('renderer', [...new Set([...(choices.renderers ?? []), ...kRenderers])].map((name) =>
+            option(name, undefined, choices.renderers?.includes(name) ? '' : 'not in this build')), values.renderer);
+        this.#fill('cull', (choices.culls ?? []).map((name) => option(name)), values.cull);
+        this.#fill('path', [option(kNone, 'None: steered'), ...(choices.paths ?? []).map((name) => option(name))],
+                   values.path ?? kNone);
+        this.#fill('size', [
+            option('window', 'As the window'), option('half', 'Half the window'),
+            ...kSizes.map(([width, height]) => option(
+                `${width}x${height}`, `${width} × ${height}`,
+                width > choices.max_width || height > choices.max_height ? 'larger than the client allows' : '')),
+        ], this.size);
+
+        const {servers} = this.#elements;
+        servers.max = many;
+        if (document.activeElement !== servers || why) servers.value = values.servers ?? many;
+        this.#show_servers(many);
+
+        const shown = document.getElementById('controls-why');
+        shown.textContent = why;
+        shown.hidden = !why;
+        for (const field of [...kSelects, 'servers']) {
+            const element = this.#elements[field];
+            const own = field === 'servers' && many === 1 ? 'The cluster has one server' :
+                field !== 'size' && field !== 'servers' && element.options.length === 0 ? 'Not known yet' : '';
+            element.disabled = Boolean(why || own);
+            element.title = why || own;
+            const reason = this.#reasons.get(field) ?? '';
+            const text = reason ? `Could not be had: ${reason}` : '';
+            const note = document.getElementById(`${field}-why`);
+            if (note.textContent !== text) note.textContent = text;
+        }
+    }
+
+    #show_servers(many) {
+        const text = `${this.#elements.servers.value} of ${many}`;
+        document.getElementById('servers-of').textContent = text;
+        this.#elements.servers.setAttribute('aria-valuetext', text);
+    }
+
+    // Options change only where they differ, so that an open list stays open.
+    #fill(field, options, value) {
+        const element = this.#elements[field];
+        const key = JSON.stringify(options);
+        if (element.dataset.options !== key) {
+            element.dataset.options = key;
+            element.replaceChildren(...options.map(({value, label, why}) => {
+                const made = new Option(why ? `${label} (${why})` : label, value);
+                made.disabled = Boolean(why);
+                return made;
+            }));
+        }
+        const wanted = value ?? '';
+        if (element.value !== wanted) element.value = wanted;
+    }
+
+    #changed(field) {
+        const {value} = this.#elements[field];
+        this.#reasons.delete(field);
+        if (field === 'size') this.size = value;
+        if (field === 'servers') this.#show_servers(this.#elements.servers.max);
+        const numeric = field === 'servers' || field === 'objects';
+        this.#on_change(field, numeric ? Number(value) : value === kNone ? null : value);
+    }
+}
+
+function option(value, label = kNames[value] ?? value, why = '') {
+    return {value, label, why};
+}

@@ -1,0 +1,456 @@
+// The viewer: what it knows, and who is told when that changes. docs/viewer.md says what comes and goes.
+
+import {Bars} from './bars.js';
+import * as cameras from './camera.js';
+import {Connection} from './connection.js';
+import {Controls} from './controls.js';
+import {Curve, Sparkline} from './curve.js';
+import {compact, plural} from './format.js';
+import {critical_summary, Gantt} from './gantt.js';
+import {attach_gestures, steer_by_key} from './gestures.js';
+import {copy, save} from './keep.js';
+import {read_frame, read_plan, read_speedup} from './notes.js';
+import {kLayers} from './overlays.js';
+import {show_frames, show_legends, show_links, show_speedups} from './panels.js';
+import {Stage} from './stage.js';
+import {Tip} from './tip.js';
+import {Wishes} from './wishes.js';
+
+const kResizeRestMs = 150;   // before a new size is asked for
+const kPanelMs = 160;        // between two updates of numbers and bars, so that they can be read
+const kStateWaitMs = 300;    // for a `state` note before the page starts from nothing
+const kHintMs = 2500;
+const kRateWindowMs = 1500;
+
+const at = (id) => document.getElementById(id);
+
+const now = {
+    connected: false,
+    audience: null,  // the newest note of each kind
+    session: null,
+    state: null,
+    objects: null,
+    speedup: null,
+    frames: [null, null],
+    others: null,
+    leading: false,  // this page's wishes count: it has taken over what counted before
+    trace_wanted: false,
+};
+
+const tip = new Tip(at('tip'));
+const wishes = new Wishes((wish) => leads() && connection.send(wish));
+const stage = new Stage(tip, {
+    shown: ({frame, stream, format}) => connection.send({type: 'shown', frame, stream, format}),
+    drawn: picture_drawn,
+    resized: () => {
+        clearTimeout(now.resize_timer);
+        now.resize_timer = setTimeout(() => now.leading && wish_size(), kResizeRestMs);
+    },
+});
+const gantt = new Gantt(at('gantt'), tip, show_gantt_state);
+const bars = new Bars(at('bars'), tip);
+const curve = new Curve(at('curve'), tip);
+const lag_curve = new Sparkline(at('lag-curve'));
+const controls = new Controls((field, value) => {
+    if (field === 'size') return wish_size();
+    // Who stops a path goes on from where it is.
+    if (field === 'path' && value === null) wishes.look(current_camera());
+    wishes.set({[field]: value, ...(field === 'algorithm' && value === wishes.want.against ? {against: null} : {})});
+    refresh();
+});
+const connection = new Connection(
+    `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live${location.search}`, {
+        open: () => {
+            now.connected = true;
+            refresh();
+        },
+        lost: () => {
+            now.connected = false;
+            now.leading = false;
+            now.audience = null;
+            refresh();
+        },
+        note: (note) => {
+            // A note that is not what it should be must not stop those after it.
+            try {
+                kNotes[note.type]?.(note);
+            } catch (error) {
+                console.warn(`a ${note.type} note cannot be used: ${error}`);
+            }
+        },
+        picture: (header, bytes) =>
+            stage.stream(header.stream).receive({...header, plan: read_plan(header.plan)}, bytes),
+    });
+
+// --- Who steers ---
+
+function leads() {
+    const {audience, session} = now;
+    return Boolean(audience && audience.you === audience.lead && audience.session && session?.live);
+}
+
+// Where the picture is now: what this page wants, or what was drawn while a path plays.
+function current_camera() {
+    const drawn = stage.stream(0).plan?.camera;
+    if (wishes.want.path && cameras.is_camera(drawn)) return cameras.from_numbers(drawn);
+    return wishes.camera;
+}
+
+// Takes over what counts, so that nothing jumps, and asks for pictures of this window's size.
+function take_over() {
+    clearTimeout(now.take_over_timer);
+    if (now.leading || !leads()) return;
+    const {state, session} = now;
+    const drawn = stage.stream(0).plan?.camera;
+    const numbers = [state?.path ? drawn : state?.camera, drawn, state?.camera, session.home].find(cameras.is_camera);
+    if (!numbers) return;
+    now.leading = true;
+    wishes.adopt(state, cameras.from_numbers(numbers));
+    wish_size();
+}
+
+function take_over_soon() {
+    if (now.state) return take_over();
+    clearTimeout(now.take_over_timer);
+    now.take_over_timer = setTimeout(() => {
+        take_over();
+        refresh();
+    }, kStateWaitMs);
+}
+
+function wish_size() {
+    if (!now.leading) return;
+    const fixed = /^(\d+)x(\d+)$/.exec(controls.size);
+    const [width, height] = fixed ? [Number(fixed[1]), Number(fixed[2])] : stage.fitting(controls.size === 'half' ? 0.5 : 1);
+    if (wishes.sent?.width === width && wishes.sent.height === height && wishes.want.width === width &&
+        wishes.want.height === height) return;
+    wishes.set({width, height});
+}
+
+const steering = {
+    orbit: (across, upwards, time) => steer((camera) => cameras.orbit(camera, across, upwards), time),
+    pan: (x, y, time) => steer((camera, within) => cameras.pan(camera, x, y, within), time),
+    dolly: (factor, place, time) => steer((camera, within) => cameras.dolly(camera, factor, place, within), time),
+    centre: (place, time) => steer((camera, within) => cameras.centre(camera, place, within), time),
+};
+
+function steer(change, time) {
+    if (!now.leading) return hint(why_not_steered());
+    const camera = current_camera();
+    if (wishes.want.path) wishes.set({path: null});
+    wishes.look(change(camera, cameras.limits(now.session.bounds)), time);
+    if (wishes.want.paused) hint('Paused: Step draws one frame of this view');
+    if (!controls_show_steered()) refresh();
+}
+
+function controls_show_steered() { return at('path').value === ''; }
+
+function reset() {
+    if (!now.leading) return hint(why_not_steered());
+    if (!cameras.is_camera(now.session.home)) return;
+    wishes.set({path: null});
+    wishes.look(cameras.from_numbers(now.session.home), performance.now());
+    refresh();
+}
+
+function why_not_steered() {
+    const {connected, audience, session} = now;
+    if (!connected || !audience) return 'There is no connection';
+    if (!audience.session || !session) return 'There is no client yet';
+    if (!session.live) return `This run follows a camera path${session.why ? `: ${session.why}` : ''}`;
+    if (audience.lead !== audience.you) return `Viewer ${audience.lead} steers. “Steer” takes over.`;
+    return '';
+}
+
+// --- What comes ---
+
+const kNotes = {
+    audience: (note) => {
+        const before = now.audience;
+        now.audience = note;
+        if (before?.session && !note.session) forget_session();
+        if (!leads()) now.leading = false;
+        else if (!now.leading) take_over_soon();
+        refresh();
+    },
+    session: (note) => {
+        // The same run as before a connection was lost goes on; another one begins anew.
+        if (now.session && JSON.stringify(now.session) !== JSON.stringify(note)) forget_session();
+        now.session = note;
+        stage.background = note.background;
+        if (leads() && !now.leading) take_over_soon();
+        refresh();
+    },
+    state: (note) => {
+        now.state = note;
+        if (leads() && !now.leading) take_over();
+        if (note.by === now.audience?.you)
+            for (const [field, reason] of Object.entries(note.refused ?? {})) {
+                // Unless the person has chosen anew since.
+                if (wishes.since(field) > note.wish) continue;
+                if (!['width', 'height'].includes(field)) wishes.want[field] = note[field];
+                controls.refuse(field, reason);
+            }
+        refresh();
+    },
+    objects: (note) => stage.objects = now.objects = note,
+    frame: (text) => {
+        const note = read_frame(text);
+        if (!note) return;
+        now.frames[note.stream] = note;
+        if (note.others) now.others = note.others;
+        gantt.add(note);
+        stage.frame(note);
+        update_panels_soon();
+    },
+    speedup: (note) => {
+        now.speedup = read_speedup(note);
+        curve.show(now.speedup);
+        show_speedups(now.speedup);
+        refresh();
+    },
+    trace: ({trace}) => {
+        if (!now.trace_wanted) return;
+        now.trace_wanted = false;
+        save('swath-timeline.json', [typeof trace === 'string' ? trace : JSON.stringify(trace)], 'application/json');
+        refresh();
+    },
+};
+
+function forget_session() {
+    Object.assign(now, {session: null, state: null, objects: null, speedup: null, frames: [null, null], others: null,
+                        leading: false, trace_wanted: false});
+    wishes.forget();
+    controls.forget();
+    stage.forget();
+    gantt.forget();
+    curve.show(null);
+    show_speedups(null);
+    update_panels();
+}
+
+const rate = {times: [], frame: null};
+
+function picture_drawn(number, {drawn: {header}}) {
+    const time = performance.now();
+    const {plan} = header;
+    if (plan && plan.by === now.audience?.you) {
+        const input = wishes.take_input(plan.wish);
+        if (input !== null) {
+            at('lag').textContent = Math.round(time - input);
+            lag_curve.add(time - input);
+        }
+    }
+    if (number === 0) {
+        if (header.frame !== rate.frame) rate.times.push(time);
+        rate.frame = header.frame;
+        show_quality(header.format);
+    }
+    update_panels_soon();
+}
+
+function show_quality(format) {
+    const badge = at('quality');
+    badge.textContent = {png: 'lossless', jpeg: 'moving'}[format];
+    badge.dataset.state = format;
+}
+
+function show_rate() {
+    const oldest = performance.now() - kRateWindowMs;
+    rate.times = rate.times.filter((time) => time >= oldest);
+    const {times} = rate;
+    const span = times.at(-1) - times[0];
+    const text = times.length > 2 && span > 0 ? ((times.length - 1) * 1000 / span).toFixed(1) : '–';
+    if (at('fps').textContent !== text) at('fps').textContent = text;
+}
+setInterval(show_rate, 250);
+
+// --- What is shown ---
+
+function update_panels_soon() {
+    now.panel_timer ??= setTimeout(() => {
+        now.panel_timer = null;
+        update_panels();
+    }, kPanelMs);
+}
+
+function update_panels() {
+    const streams = stage.split ? [0, 1] : [0];
+    const frames = streams.map((stream) => now.frames[stream]).filter(Boolean);
+    bars.show(frames);
+    show_frames(frames, now.others);
+    show_links(streams.filter((stream) => stage.stream(stream).plan).map((stream) => ({
+        plan: stage.stream(stream).plan, frame: now.frames[stream], title: stage.split ? `${'AB'[stream]} ` : '',
+    })));
+    if (gantt.paused) return;
+    const text = frames.map((frame) => (stage.split ? `${'AB'[frame.stream]}: ` : '') + critical_summary(frame)).join(' | ');
+    at('critical').textContent = text && `Critical path: ${text}`;
+    at('gantt').setAttribute('aria-label', `Gantt chart of the last frames. ${at('critical').textContent}`);
+}
+
+function situation() {
+    const {connected, audience, session, state} = now;
+    if (!connected)
+        return {state: 'bad', text: now.was_connected ? 'Connection lost; trying again' : 'Connecting',
+                notice: now.was_connected ? ['Connection lost', 'Trying again by itself.'] : ['Connecting', '']};
+    if (!audience) return {state: 'busy', text: 'Connecting'};
+    if (!audience.session || !session)
+        return {state: 'busy', text: 'Waiting for a client',
+                notice: ['Waiting for a client', 'Pictures come as soon as a client begins a run with this display.']};
+    const others = audience.viewers > 1 ? `; ${plural(audience.viewers, 'viewer')}` : '';
+    if (!session.live)
+        return {state: 'good', text: `Follows a camera path; cannot be steered${session.why ? `: ${session.why}` : ''}${others}`};
+    if (state?.busy) return {state: 'busy', text: `${state.busy}${others}`};
+    if (!leads()) return {state: 'good', text: `Viewer ${audience.lead} steers, you follow${others}`};
+    return {state: 'good', text: `You steer${others}`};
+}
+
+function refresh() {
+    now.was_connected ||= now.connected;
+    const {session, state, audience} = now;
+    const steering_here = now.leading;
+    const values = steering_here ? wishes.want : state ?? {};
+    const why = why_not_steered() || (steering_here ? '' : 'Not known yet');
+
+    const {state: mood, text, notice} = situation();
+    if (at('status').textContent !== text) at('status').textContent = text;
+    at('status').dataset.state = mood;
+    at('notice').hidden = !notice;
+    if (notice) [at('notice').children[0].textContent, at('notice').children[1].textContent] = notice;
+    stage.stale = !now.connected && now.was_connected;
+    stage.split = Boolean(values.against);
+
+    at('model').textContent = session ? `${session.model} · ${compact(session.triangles)} triangles` : '';
+    document.title = session ? `${session.model} · Swath` : 'Swath';
+    at('picture-0').setAttribute('aria-label', session ? `Picture of ${session.model}` : 'Picture');
+
+    const lead = at('lead');
+    lead.textContent = leads() ? 'Steering' : 'Steer';
+    disable(lead, leads() ? 'You steer' : session?.live && audience ? '' : why_not_steered());
+
+    controls.update(session, values, why);
+    press(at('pause'), Boolean(values.paused));
+    disable(at('pause'), why);
+    disable(at('reset'), why);
+    disable(at('step'), why || (values.paused ? '' : 'Only while paused'));
+    disable(at('measure'), why || (now.speedup?.running ? 'Measuring' : ''), 'measure-why');
+    disable(at('save-timeline'), why || (now.trace_wanted ? 'On its way' : ''), 'timeline-why');
+    disable(at('save-frame'), session ? '' : why);
+    disable(at('save-camera'), session ? '' : why);
+    const command = state?.command ?? '';
+    if (at('command').value !== command) at('command').value = command;
+    disable(at('copy-command'), command ? '' : 'Not known yet');
+}
+
+// With a reason the button is off, and says why.
+function disable(button, why, shown_at = null) {
+    button.dataset.title ??= button.title;
+    button.disabled = Boolean(why);
+    button.title = why || button.dataset.title;
+    if (shown_at && at(shown_at).textContent !== why) at(shown_at).textContent = why;
+}
+
+function press(button, on) { button.setAttribute('aria-pressed', String(on)); }
+
+function hint(text) {
+    if (!text) return;
+    at('hint').textContent = text;
+    at('hint').hidden = false;
+    clearTimeout(now.hint_timer);
+    now.hint_timer = setTimeout(() => at('hint').hidden = true, kHintMs);
+}
+
+function show_gantt_state() {
+    press(at('gantt-pause'), gantt.paused);
+}
+
+// --- What a person does ---
+
+function fold(part) {
+    const folded = document.querySelector('main').classList.toggle(`no-${part}`);
+    at(`fold-${part}`).setAttribute('aria-expanded', String(!folded));
+    gantt.redraw();
+}
+
+function toggle(layer) { press(at(`show-${layer}`), stage.toggle(layer)); }
+
+function pause() {
+    wishes.set({paused: !wishes.want.paused});
+    refresh();
+}
+
+const camera_numbers = () => {
+    const steered = now.leading && !wishes.want.path ? cameras.to_numbers(wishes.camera) : null;
+    return [steered, stage.stream(0).plan?.camera, now.state?.camera, now.session?.home].find(cameras.is_camera) ?? null;
+};
+const camera_text = () => {
+    const numbers = camera_numbers();
+    return numbers ? cameras.camera_text(numbers) : '';
+};
+
+for (const number of [0, 1])
+    attach_gestures(stage.cell(number), stage.stream(number).canvas, {
+        ...steering, hover: (x, y) => stage.hover(number, x, y),
+    });
+for (const layer of kLayers) at(`show-${layer}`).addEventListener('click', () => toggle(layer));
+for (const part of ['dock', 'panel']) at(`fold-${part}`).addEventListener('click', () => fold(part));
+at('lead').addEventListener('click', () => connection.send({type: 'lead'}));
+at('reset').addEventListener('click', reset);
+at('pause').addEventListener('click', pause);
+at('step').addEventListener('click', () => wishes.count('step'));
+at('measure').addEventListener('click', () => wishes.count('measure'));
+at('gantt-in').addEventListener('click', () => gantt.zoom(0.7));
+at('gantt-out').addEventListener('click', () => gantt.zoom(1 / 0.7));
+at('gantt-fit').addEventListener('click', () => gantt.reset());
+at('gantt-pause').addEventListener('click', () => gantt.pause(!gantt.paused));
+at('save-frame').addEventListener('click', async () => {
+    if (stage.stream(0).drawn?.header.format !== 'png') hint('Waits for the lossless picture');
+    const {header, bytes} = await stage.stream(0).lossless();
+    save(`swath-${header.frame}.png`, [bytes], 'image/png');
+});
+at('save-camera').addEventListener('click', () => save('view.camera', [camera_text()], 'text/plain'));
+at('save-timeline').addEventListener('click', () => {
+    now.trace_wanted = true;
+    wishes.count('trace');
+    refresh();
+});
+at('copy-command').addEventListener('click', async () =>
+    hint(await copy(at('command')) ? 'Copied' : 'Select the text and copy it'));
+at('help').addEventListener('click', () => at('help-dialog').showModal());
+for (const details of document.querySelectorAll('.panel details')) details.addEventListener('toggle', update_panels);
+
+const kKeys = {
+    t: () => toggle('tiles'), g: () => toggle('groups'), b: () => toggle('boxes'), s: () => toggle('swaths'),
+    o: () => toggle('overlap'), m: () => fold('dock'), f: () => fold('panel'), r: reset, Home: reset,
+    p: () => now.leading ? pause() : hint(why_not_steered()),
+    '.': () => at('step').disabled ? hint(at('step').title) : wishes.count('step'),
+    '?': () => at('help-dialog').showModal(),
+};
+
+document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || at('help-dialog').open) return;
+    // Where keys mean something of their own they keep it.
+    if (event.target.closest('select, input, textarea, .scroll')) return;
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const act = event.shiftKey && key !== '?' ? null : kKeys[key];
+    if (act) act();
+    else if (!steer_by_key(event, steering)) return;
+    event.preventDefault();
+});
+
+show_legends();
+show_speedups(null);
+update_panels();
+refresh();
+
+// For scripts and tests.
+window.swath = {
+    get viewer() { return now.audience?.you ?? null; },
+    get leads() { return leads(); },
+    get wish() { return wishes.sent; },
+    get state() { return now.state; },
+    get session() { return now.session; },
+    plan: (stream = 0) => stage.stream(stream).plan,
+    picture: (stream = 0) => stage.stream(stream).picture(),
+    cameraText: camera_text,
+};

@@ -1,0 +1,200 @@
+// The place of the pictures: their size on the page and in pixels, what lies over them, and what the pointer
+// is on. One cell for each stream.
+
+import {compact, plural, times, whole} from './format.js';
+import {area, owner_at} from './geometry.js';
+import {draw_overlays, groups_of} from './overlays.js';
+import {Stream} from './stream.js';
+
+const kSmallest = 16;  // pixels, of a picture that is asked for
+
+export class Stage {
+    #cells;
+    #tip;
+    #show = new Set();
+    #objects = null;
+    #frames = [null, null];  // the newest `frame` note of each stream
+    #hot = [null, null];
+
+    // on.shown(header), on.drawn(stream number, stream), on.resized()
+    constructor(tip, on) {
+        this.#tip = tip;
+        this.#cells = [0, 1].map((number) => {
+            const element = document.getElementById(`cell-${number}`);
+            const overlay = document.getElementById(`overlay-${number}`);
+            const stream = new Stream(document.getElementById(`picture-${number}`), {
+                shown: on.shown,
+                drawn: () => {
+                    this.#place(this.#cells[number]);
+                    this.redraw(number);
+                    on.drawn(number, stream);
+                },
+            });
+            return {element, overlay, stream, caption: document.getElementById(`caption-${number}`), box: [0, 0]};
+        });
+        const observer = new ResizeObserver((entries) => {
+            for (const entry of entries) {
+                const cell = this.#cells.find(({element}) => element === entry.target);
+                const device = entry.devicePixelContentBoxSize?.[0];
+                cell.box = device
+                    ? [device.inlineSize, device.blockSize]
+                    : [entry.contentRect.width, entry.contentRect.height]
+                        .map((length) => Math.floor(length * devicePixelRatio));
+                this.#place(cell);
+                this.redraw(this.#cells.indexOf(cell));
+            }
+            on.resized();
+        });
+        for (const {element} of this.#cells) {
+            try {
+                observer.observe(element, {box: 'device-pixel-content-box'});
+            } catch {
+                observer.observe(element);  // where that box is not known
+            }
+        }
+    }
+
+    get show() { return this.#show; }
+    get split() { return !this.#cells[1].element.hidden; }
+    stream(number) { return this.#cells[number].stream; }
+    cell(number) { return this.#cells[number].element; }
+
+    set objects(note) {
+        this.#objects = note;
+        this.redraw();
+    }
+
+    set background(colour) {
+        if (/^#[0-9a-f]{6}$/i.test(colour))
+            for (const {element} of this.#cells) element.style.setProperty('--picture-ground', colour);
+    }
+
+    set stale(on) { for (const {element} of this.#cells) element.classList.toggle('stale', on); }
+
+    // Two pictures side by side, or one.
+    set split(on) {
+        if (on === this.split) return;
+        this.#cells[1].element.hidden = !on;
+        if (!on) this.#cells[1].stream.forget();
+        this.redraw();
+    }
+
+    frame(note) {
+        this.#frames[note.stream] = note;
+        this.#write_caption(note.stream);
+    }
+
+    toggle(layer) {
+        if (!this.#show.delete(layer)) this.#show.add(layer);
+        this.#hot = [null, null];
+        this.redraw();
+        return this.#show.has(layer);
+    }
+
+    forget() {
+        for (const {stream} of this.#cells) stream.forget();
+        this.#frames = [null, null];
+        this.#objects = null;
+        this.redraw();
+    }
+
+    // Pixels of the picture that suits the place: what a cell has, or a part of it.
+    fitting(part) {
+        return this.#cells[0].box.map((pixels) => Math.max(Math.floor(pixels * part), kSmallest));
+    }
+
+    redraw(number = null) {
+        for (const at of number === null ? [0, 1] : [number]) {
+            const {overlay, stream} = this.#cells[at];
+            draw_overlays(overlay, stream.plan, this.#objects, this.#show, this.#hot[at]);
+            this.#write_caption(at);
+        }
+    }
+
+    // What is at this place of the page, as a tip and an outline; null for nothing.
+    hover(number, x, y) {
+        const {stream} = this.#cells[number];
+        const plan = stream.plan;
+        const server = x === null || this.#show.size === 0 || !plan ? -1 : this.#server_at(number, x, y);
+        const hot = server < 0 ? null : server;
+        if (hot !== this.#hot[number]) {
+            this.#hot[number] = hot;
+            this.redraw(number);
+        }
+        if (hot === null) return this.#tip.hide();
+        this.#tip.show(x, y, `server ${server}`, server_rows(plan, server, this.#frames[number]));
+    }
+
+    #server_at(number, x, y) {
+        const {stream} = this.#cells[number];
+        const box = stream.canvas.getBoundingClientRect();
+        const {width, height, tiles} = stream.plan;
+        return owner_at(tiles, (x - box.left) / box.width * width, (box.bottom - y) / box.height * height);
+    }
+
+    // Letterboxed, on whole device pixels, and pixel for pixel where the size allows.
+    #place({stream, overlay, box}) {
+        const {width, height} = stream.size();
+        if (!stream.drawn || box[0] === 0) return;
+        const scale = Math.min(box[0] / width, box[1] / height);
+        const exact = Math.abs(scale - 1) * Math.max(width, height) < 2 && width <= box[0] && height <= box[1];
+        const pixels = exact ? [width, height] : [width, height].map((length) => Math.round(length * scale));
+        const corner = pixels.map((length, axis) => Math.floor((box[axis] - length) / 2));
+        for (const {style} of [stream.canvas, overlay]) {
+            style.width = `${pixels[0] / devicePixelRatio}px`;
+            style.height = `${pixels[1] / devicePixelRatio}px`;
+            style.transform = `translate(${corner.map((at) => `${at / devicePixelRatio}px`).join(', ')})`;
+        }
+        if (overlay.width !== pixels[0]) overlay.width = pixels[0];
+        if (overlay.height !== pixels[1]) overlay.height = pixels[1];
+    }
+
+    #write_caption(number) {
+        const {stream, caption} = this.#cells[number];
+        const plan = stream.plan;
+        const note = this.#frames[number];
+        const parts = [];
+        if (plan && this.split) {
+            parts.push(`${'AB'[number]}: ${plan.algorithm}`);
+            const busiest = note ? busiest_ms(note) : 0;
+            if (busiest > 0) parts.push(`${whole(busiest)} ms the busiest machine`);
+        }
+        if (plan && (this.split || this.#show.has('overlap'))) parts.push(`overlap ${times(plan.overlap ?? 1)}`);
+        if (plan && (this.split || this.#show.has('swaths')))
+            parts.push(`swaths ${compact(plan.links?.reduce((sum, link) => sum + area(link.rectangles), 0) ?? 0)} pixels`);
+        if (plan && ['groups', 'boxes', 'overlap'].some((layer) => this.#show.has(layer))) {
+            if (this.#objects && !this.#objects.boxes)
+                parts.push(`${plural(this.#objects.count, 'object')}: too many for boxes`);
+            else if (this.#objects?.generation !== plan.generation) parts.push('boxes are on their way');
+            else if (!plan.groups && !(this.#show.size === 1 && this.#show.has('boxes'))) parts.push('too many objects for groups');
+        }
+        const text = parts.join(' · ');
+        if (caption.textContent !== text) caption.textContent = text;
+        caption.hidden = text === '';
+    }
+}
+
+// The time of the machine that was busy longest.
+export function busiest_ms(frame) {
+    return Math.max(0, ...frame.machines.map(({spans}) => spans.reduce(
+        (sum, {phase, begin, end}) => phase === 'wait' ? sum : sum + end - begin, 0)));
+}
+
+function server_rows(plan, server, frame) {
+    const links = plan.links ?? [];
+    const counters = frame?.machines.find(({name}) => name === `server ${server}`)?.counters ?? {};
+    const rows = [['tile', `${whole(area(plan.tiles[server]))} pixels`]];
+    const objects = groups_of(plan)?.[server]?.length;
+    if (counters.triangles !== undefined) rows.push(['draws', plural(counters.triangles, 'triangle')]);
+    if (objects !== undefined) rows.push(['group', plural(objects, 'object')]);
+    for (const {from, to, rectangles} of links) {
+        if (from === server) rows.push([`sends to ${to}`, `${whole(area(rectangles))} pixels`]);
+        if (to === server) rows.push([`receives from ${from}`, `${whole(area(rectangles))} pixels`]);
+    }
+    const kMost = 14;
+    if (rows.length > kMost) rows.splice(kMost - 1, Infinity, ['and', plural(rows.length - kMost + 1, 'link')]);
+    if (counters.swap_pixels !== undefined) rows.push(['sent, not empty', `${whole(counters.swap_pixels)} pixels`]);
+    if (counters.received_pixels !== undefined)
+        rows.push(['received, not empty', `${whole(counters.received_pixels)} pixels`]);
+    return rows;
+}

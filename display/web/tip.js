@@ -1,0 +1,28 @@
+// The small box with numbers beside the pointer.
+
+import {fill_rows} from './tables.js';
+
+export class Tip {
+    #box;
+    #title;
+    #table;
+
+    constructor(box) {
+        this.#box = box;
+        this.#title = box.querySelector('strong');
+        this.#table = box.querySelector('table');
+    }
+
+    // `rows` are lists of texts: what, value, and more.
+    show(x, y, title, rows) {
+        this.#title.textContent = title;
+        fill_rows(this.#table, rows);
+        this.#box.hidden = false;
+        const {offsetWidth: width, offsetHeight: height} = this.#box;
+        const left = x + 14 + width > innerWidth - 4 ? x - 14 - width : x + 14;
+        const top = y + 14 + height > innerHeight - 4 ? y - 14 - height : y + 14;
+        this.#box.style.transform = `translate(${Math.max(Math.round(left), 4)}px, ${Math.max(Math.round(top), 4)}px)`;
+    }
+
+    hide() { this.#box.hidden = true; }
+}
