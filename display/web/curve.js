@@ -10,8 +10,8 @@ const kTop = 8;
 const kRight = 10;
 
 export const kSeries = [
-    {name: 'by frame time', field: 'interval', colour: '--curve-interval', shape: 'circle', line: []},
-    {name: 'by busiest CPU', field: 'busiest_cpu', colour: '--curve-cpu', shape: 'square', line: []},
+    {name: 'frame time', field: 'interval', colour: '--curve-interval', shape: 'circle', line: []},
+    {name: 'busiest CPU', field: 'busiest_cpu', colour: '--curve-cpu', shape: 'square', line: []},
     {name: 'predicted', field: 'predicted', colour: '--curve-predicted', shape: 'diamond', line: [4, 3]},
 ];
 

@@ -13,6 +13,7 @@ const kWhitest = 0.9;
 const kReplicated = {colour: 'rgb(255 196 46)', opacity: 0.95};
 const kBoxes = {colour: 'rgb(130 205 255)', opacity: 0.8};
 const kGroups = {opacity: 0.9};
+const kNumberSize = 13;  // CSS pixels
 
 export const kLayers = ['tiles', 'groups', 'boxes', 'swaths', 'overlap'];
 
@@ -154,7 +155,7 @@ class Layers {
     // Each server's number in the middle of its largest rectangle: colours alone do not name it.
     numbers() {
         const context = this.#to;
-        const size = Math.round(Math.min(Math.max(this.#width / 70, 11), 22));
+        const size = Math.round(kNumberSize * devicePixelRatio);
         context.font = `600 ${size}px system-ui, sans-serif`;
         context.textAlign = 'center';
         context.textBaseline = 'middle';
