@@ -43,8 +43,7 @@ export class Bars {
     constructor(canvas, tip) {
         this.#tip = tip;
         this.#chart = new Chart(canvas, (...to) => this.#paint(...to));
-        canvas.addEventListener('pointermove', (event) => this.#hover(event));
-        canvas.addEventListener('pointerleave', () => tip.hide());
+        tip.attach(canvas, (event) => this.#hover(event));
     }
 
     // The newest `frame` note of each stream.

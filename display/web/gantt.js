@@ -7,6 +7,7 @@ import {median, ms} from './format.js';
 import {critical_text, is_wait, phase_colour, server_number} from './phases.js';
 
 const kFramesKept = 160;
+const kRedrawMs = 60;  // between frames that come by themselves
 const kLines = 3;  // of a row; frames in flight beyond that share
 const kGutter = 62;
 const kAxis = 18;
@@ -28,6 +29,7 @@ export class Gantt {
     #drawn = [];             // {left, top, right, bottom, span, machine, frame} of what is on the canvas
     #on_change;
     #machines = 6;
+    #timer = null;
 
     constructor(canvas, tip, on_change) {
         this.#tip = tip;
@@ -43,7 +45,10 @@ export class Gantt {
         this.#frames.push({...frame, lines: this.#lines_of(frame), ...extent(frame.machines)});
         if (this.#frames.length > kFramesKept && !this.paused)
             this.#frames.splice(0, this.#frames.length - kFramesKept);
-        if (!this.paused) this.#fit();
+        if (!this.paused) this.#timer ??= setTimeout(() => {
+            this.#timer = null;
+            this.#fit();
+        }, kRedrawMs);
     }
 
     forget() {
@@ -269,11 +274,10 @@ export class Gantt {
                 this.#move((dragged_from - event.clientX) * per_pixel());
                 dragged_from = event.clientX;
             }
-            this.#hover(event);
         });
         canvas.addEventListener('pointerup', () => dragged_from = null);
         canvas.addEventListener('pointercancel', () => dragged_from = null);
-        canvas.addEventListener('pointerleave', () => this.#tip.hide());
+        this.#tip.attach(canvas, (event) => this.#hover(event));
         canvas.addEventListener('wheel', (event) => {
             event.preventDefault();
             if (Math.abs(event.deltaX) > Math.abs(event.deltaY)) return this.#move(event.deltaX * per_pixel());

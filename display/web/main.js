@@ -18,7 +18,7 @@ import {Wishes} from './wishes.js';
 
 const kResizeRestMs = 150;   // before a new size is asked for
 const kPanelMs = 160;        // between two updates of numbers and bars, so that they can be read
-const kStateWaitMs = 300;    // for a `state` note before the page starts from nothing
+const kStateWaitMs = 300;    // for a `state` note before the page starts from what it knows
 const kHintMs = 2500;
 const kRateWindowMs = 1500;
 const kLeastNamed = 0.02;    // of the critical path
@@ -30,6 +30,7 @@ const now = {
     audience: null,  // the newest note of each kind
     session: null,
     state: null,
+    state_fresh: false,  // it came over this connection
     objects: null,
     speedup: null,
     frames: [null, null],
@@ -67,7 +68,7 @@ const connection = new Connection(
         },
         lost: () => {
             now.connected = false;
-            now.leading = false;
+            now.leading = now.state_fresh = false;
             now.audience = null;
             refresh();
         },
@@ -111,7 +112,7 @@ function take_over() {
 }
 
 function take_over_soon() {
-    if (now.state) return take_over();
+    if (now.state_fresh) return take_over();
     clearTimeout(now.take_over_timer);
     now.take_over_timer = setTimeout(() => {
         take_over();
@@ -185,6 +186,7 @@ const kNotes = {
     },
     state: (note) => {
         now.state = note;
+        now.state_fresh = true;
         if (leads() && !now.leading) take_over();
         if (note.by === now.audience?.you)
             for (const [field, reason] of Object.entries(note.refused ?? {})) {

@@ -102,7 +102,8 @@ export class Stage {
     redraw(number = null) {
         for (const at of number === null ? [0, 1] : [number]) {
             const {overlay, stream} = this.#cells[at];
-            draw_overlays(overlay, stream.plan, this.#objects, this.#show, this.#hot[at]);
+            draw_overlays(overlay, stream.plan, this.#objects, this.#show, this.#hot[at],
+                          stream.drawn?.header.format === 'png');
             this.#write_caption(at);
         }
     }

@@ -35,18 +35,28 @@ test('a line behind the eye or beside the picture is not seen', () => {
     assert.equal(geometry.visible_segment(at(0, 0, -20), at(0, 1, -30), 200, 200), null);
 });
 
+const every_fifth = (edges, first) => edges.filter((_, place) => place % 5 === first);
+
 test('a box in view has twelve edges and the depth of its centre', () => {
-    const frame = geometry.wireframe([9, 9, 9, 9, 9, 9, -1, -1, -5, 1, 1, -3], 1, clip, 100, 100);
-    assert.equal(frame.edges.length, 12);
-    assert.deepEqual(frame.edges.map(({place}) => place), [...Array(12).keys()]);
-    assert.ok(Math.abs(frame.depth - 4) < 1e-9);
+    const {edges, depth} = geometry.wireframe([9, 9, 9, 9, 9, 9, -1, -1, -5, 1, 1, -3], 1, clip, 100, 100);
+    assert.deepEqual(every_fifth(edges, 4), [...Array(12).keys()]);
+    assert.ok(Math.abs(depth - 4) < 1e-9);
+    // From the far lower left corner to the right.
+    close(edges.slice(0, 4), [40, 40, 60, 40]);
+});
+
+test('a box that sticks out has the same edges as far as they are seen', () => {
+    const whole = geometry.wireframe([0, 0, -5, 1, 1, -3], 0, clip, 100, 100).edges;
+    const {edges} = geometry.wireframe([0, 0, -50, 1, 1, -3], 0, clip, 100, 100);
+    const near_side = (list) => list.slice(5 * every_fifth(list, 4).indexOf(9)).slice(0, 5);
+    assert.ok(edges.length < whole.length);
+    close(near_side(edges), near_side(whole));
 });
 
 test('a box around the eye is cut, and one behind it is not there', () => {
-    const around = geometry.wireframe([-1, -1, -5, 1, 1, 5], 0, clip, 100, 100);
-    assert.ok(around.edges.length > 0 && around.edges.length < 12);
-    for (const {segment} of around.edges)
-        for (const value of segment) assert.ok(value >= -1e-6 && value <= 100 + 1e-6);
+    const {edges} = geometry.wireframe([-1, -1, -5, 1, 1, 5], 0, clip, 100, 100);
+    assert.ok(edges.length > 0 && edges.length < 12 * 5);
+    for (const value of edges) assert.ok(value >= -1e-6 && value <= 100 + 1e-6);
     assert.equal(geometry.wireframe([-1, -1, 2, 1, 1, 5], 0, clip, 100, 100), null);
 });
 
