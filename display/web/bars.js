@@ -9,6 +9,7 @@ import {by_phase, is_wait, kPhases, phase_colour, server_number} from './phases.
 const kLeft = 34;
 const kBottom = 18;
 const kTop = 8;
+const kTallEnough = 5;  // for a mark of its own
 
 // Measured and predicted of a `frame` note's machines: [{name, measured, predicted}], both Maps of phase to
 // ms without waits; predicted is null while nobody knows.
@@ -42,8 +43,7 @@ export class Bars {
     constructor(canvas, tip) {
         this.#tip = tip;
         this.#chart = new Chart(canvas, (...to) => this.#paint(...to));
-        canvas.addEventListener('pointermove', (event) => this.#hover(event));
-        canvas.addEventListener('pointerleave', () => tip.hide());
+        tip.attach(canvas, (event) => this.#hover(event));
     }
 
     // The newest `frame` note of each stream.
@@ -112,7 +112,9 @@ export class Bars {
             sum = 0;
             context.beginPath();
             for (const [, part] of in_order(cost.predicted)) {
+                const base = y(sum);
                 const at = y(sum += part);
+                if (base - at < kTallEnough) continue;
                 context.moveTo(begin - out, at);
                 context.lineTo(begin - out + Math.min(6, thickness / 3), at);
                 context.moveTo(begin + thickness + out, at);

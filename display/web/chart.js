@@ -45,7 +45,11 @@ export class Chart {
         context.clearRect(0, 0, width, height);
         const style = getComputedStyle(this.#canvas);
         context.font = '11px system-ui, sans-serif';
-        this.#paint(context, width, height, (name) => style.getPropertyValue(name).trim());
+        const known = new Map();
+        this.#paint(context, width, height, (name) => {
+            if (!known.has(name)) known.set(name, style.getPropertyValue(name).trim());
+            return known.get(name);
+        });
     }
 }
 

@@ -10,8 +10,8 @@ const kTop = 8;
 const kRight = 10;
 
 export const kSeries = [
-    {name: 'by frame time', field: 'interval', colour: '--curve-interval', shape: 'circle', line: []},
-    {name: 'by busiest CPU', field: 'busiest_cpu', colour: '--curve-cpu', shape: 'square', line: []},
+    {name: 'frame time', field: 'interval', colour: '--curve-interval', shape: 'circle', line: []},
+    {name: 'busiest CPU', field: 'busiest_cpu', colour: '--curve-cpu', shape: 'square', line: []},
     {name: 'predicted', field: 'predicted', colour: '--curve-predicted', shape: 'diamond', line: [4, 3]},
 ];
 
@@ -33,8 +33,7 @@ export class Curve {
     constructor(canvas, tip) {
         this.#tip = tip;
         this.#chart = new Chart(canvas, (...to) => this.#paint(...to));
-        canvas.addEventListener('pointermove', (event) => this.#hover(event));
-        canvas.addEventListener('pointerleave', () => tip.hide());
+        tip.attach(canvas, (event) => this.#hover(event));
     }
 
     show(note) {

@@ -7,9 +7,11 @@ import {median, ms} from './format.js';
 import {critical_text, is_wait, phase_colour, server_number} from './phases.js';
 
 const kFramesKept = 160;
+const kRedrawMs = 60;  // between frames that come by themselves
 const kLines = 3;  // of a row; frames in flight beyond that share
 const kGutter = 62;
 const kAxis = 18;
+const kOfWindow = 0.24;  // the most of its height
 const kRow = 17;
 const kSmallestRow = 4;
 const kFramesInView = 4;
@@ -26,6 +28,8 @@ export class Gantt {
     #auto_span = 100;
     #drawn = [];             // {left, top, right, bottom, span, machine, frame} of what is on the canvas
     #on_change;
+    #machines = 6;
+    #timer = null;
 
     constructor(canvas, tip, on_change) {
         this.#tip = tip;
@@ -41,7 +45,10 @@ export class Gantt {
         this.#frames.push({...frame, lines: this.#lines_of(frame), ...extent(frame.machines)});
         if (this.#frames.length > kFramesKept && !this.paused)
             this.#frames.splice(0, this.#frames.length - kFramesKept);
-        if (!this.paused) this.#fit();
+        if (!this.paused) this.#timer ??= setTimeout(() => {
+            this.#timer = null;
+            this.#fit();
+        }, kRedrawMs);
     }
 
     forget() {
@@ -49,6 +56,13 @@ export class Gantt {
         this.#line_ends.clear();
         this.#end = null;
         this.#chart.redraw();
+    }
+
+    // How many machines there are: the height goes by it and not by who took part in the last frames, since
+    // what it leaves is the picture's.
+    set machines(count) {
+        this.#machines = count;
+        this.#fit();
     }
 
     pause(on) {
@@ -116,8 +130,8 @@ export class Gantt {
             if (wanted > this.#auto_span || wanted < 0.4 * this.#auto_span)
                 this.#auto_span = nice_step(wanted, 1);
         }
-        const rows = Math.max(this.#rows().length, 3);
-        const highest = Math.max(0.24 * innerHeight, 120) - kAxis;
+        const rows = Math.max(this.#machines, 3);
+        const highest = Math.max(kOfWindow * innerHeight, 120) - kAxis;
         const row = Math.min(Math.max(Math.floor(highest / rows), kSmallestRow), kRow);
         this.#chart.canvas.style.height = `${kAxis + rows * row + 2}px`;
         this.#chart.redraw();
@@ -197,30 +211,31 @@ export class Gantt {
         context.fillText('ms', 4, kAxis / 2);
     }
 
+    // Parts that follow one another on a machine have one outline, so that short ones are not all outline.
     #paint_critical(context, theme, shown) {
         const newest = [0, 1].map((stream) => shown.findLast((frame) => frame.stream === stream));
-        const outlined = newest.filter((frame) => frame?.critical?.length);
-        for (const frame of outlined) {
-            let before = null;
-            for (const part of frame.critical) {
+        context.strokeStyle = theme('--text');
+        for (const frame of newest) {
+            const runs = [];
+            for (const part of frame?.critical ?? []) {
                 const drawn = this.#drawn.find((one) => one.frame === frame && one.machine === part.machine &&
-                    one.span.phase === part.phase && Math.abs(one.span.begin - part.begin) < 0.01) ??
-                    this.#drawn.find((one) => one.frame === frame && one.machine === part.machine &&
                     one.span.begin <= part.begin + 0.01 && one.span.end >= part.end - 0.01);
-                if (!drawn) { before = null; continue; }
-                const {left, right, top, bottom} = drawn;
-                context.strokeStyle = theme('--text');
-                context.lineWidth = 1.5;
-                context.strokeRect(left, top, Math.max(right - left, 1.5), bottom - top);
-                if (before && before.machine !== drawn.machine) {
-                    context.lineWidth = 1;
-                    context.beginPath();
-                    context.moveTo(before.right, (before.top + before.bottom) / 2);
-                    context.lineTo(left, (top + bottom) / 2);
-                    context.stroke();
-                }
-                before = drawn;
+                if (!drawn) continue;
+                const {machine, left, right, top, bottom} = drawn;
+                const last = runs.at(-1);
+                if (last?.machine === machine && left - last.right < 2) last.right = Math.max(right, last.right);
+                else runs.push({machine, left, right, top, bottom});
             }
+            context.lineWidth = 1.5;
+            for (const {left, right, top, bottom} of runs)
+                context.strokeRect(left, top, Math.max(right - left, 1), bottom - top);
+            context.lineWidth = 1;
+            context.beginPath();
+            for (let k = 1; k < runs.length; ++k) {
+                context.moveTo(runs[k - 1].right, (runs[k - 1].top + runs[k - 1].bottom) / 2);
+                context.lineTo(runs[k].left, (runs[k].top + runs[k].bottom) / 2);
+            }
+            context.stroke();
         }
     }
 
@@ -259,11 +274,10 @@ export class Gantt {
                 this.#move((dragged_from - event.clientX) * per_pixel());
                 dragged_from = event.clientX;
             }
-            this.#hover(event);
         });
         canvas.addEventListener('pointerup', () => dragged_from = null);
         canvas.addEventListener('pointercancel', () => dragged_from = null);
-        canvas.addEventListener('pointerleave', () => this.#tip.hide());
+        this.#tip.attach(canvas, (event) => this.#hover(event));
         canvas.addEventListener('wheel', (event) => {
             event.preventDefault();
             if (Math.abs(event.deltaX) > Math.abs(event.deltaY)) return this.#move(event.deltaX * per_pixel());
@@ -302,10 +316,10 @@ export class Gantt {
     }
 }
 
-// The newest frame's way in words, with what it took.
-export function critical_summary(frame) {
+// The way of a frame in words, with what it took; '' where it is not known.
+export function critical_summary(frame, least = 0) {
     if (!frame?.critical?.length) return '';
-    return `${critical_text(frame.critical)} (${ms(frame.critical.at(-1).end - frame.critical[0].begin)})`;
+    return `${ms(frame.critical.at(-1).end - frame.critical[0].begin)}: ${critical_text(frame.critical, least)}`;
 }
 
 function extent(machines) {

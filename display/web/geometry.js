@@ -7,7 +7,12 @@ const kEdges = kCorners.flatMap((corner) =>
     [1, 2, 4].filter((axis) => !(corner & axis)).map((axis) => [corner, corner | axis]));
 
 export function to_clip(clip, x, y, z) {
-    return [0, 1, 2, 3].map((row) => clip[row] * x + clip[4 + row] * y + clip[8 + row] * z + clip[12 + row]);
+    return [
+        clip[0] * x + clip[4] * y + clip[8] * z + clip[12],
+        clip[1] * x + clip[5] * y + clip[9] * z + clip[13],
+        clip[2] * x + clip[6] * y + clip[10] * z + clip[14],
+        clip[3] * x + clip[7] * y + clip[11] * z + clip[15],
+    ];
 }
 
 // The part of a line between two points in clip space that is inside the frustum, in pixels: [x0, y0, x1, y1],
@@ -34,22 +39,32 @@ export function visible_segment(a, b, width, height) {
     return segment;
 }
 
-// Box number `id` of a flat list of (min, max): {edges, depth}, where each edge is a visible segment and its
-// place among the twelve, and depth that of the centre; null if nothing of it is seen.
+// Box number `id` of a flat list of (min, max): {edges, depth}, where edges has five numbers for each that is
+// seen, its segment and its place among the twelve, and depth is that of the centre; null if nothing is seen.
 export function wireframe(boxes, id, clip, width, height) {
     const at = 6 * id;
-    const corners = kCorners.map((corner) => to_clip(
-        clip,
-        boxes[at + (corner & 1 ? 3 : 0)],
-        boxes[at + (corner & 2 ? 4 : 1)],
-        boxes[at + (corner & 4 ? 5 : 2)]));
-    const edges = [];
-    kEdges.forEach(([from, to], place) => {
-        const segment = visible_segment(corners[from], corners[to], width, height);
-        if (segment) edges.push({segment, place});
+    let inside = true;
+    let depth = 0;
+    const corners = kCorners.map((corner) => {
+        const point = to_clip(clip, boxes[at + (corner & 1 ? 3 : 0)], boxes[at + (corner & 2 ? 4 : 1)],
+                              boxes[at + (corner & 4 ? 5 : 2)]);
+        const [x, y, z, w] = point;
+        inside &&= w > 0 && Math.abs(x) <= w && Math.abs(y) <= w && Math.abs(z) <= w;
+        depth += w / 8;
+        return point;
     });
-    if (edges.length === 0) return null;
-    return {edges, depth: corners.reduce((sum, corner) => sum + corner[3], 0) / 8};
+    const edges = [];
+    if (inside) {
+        const pixels = corners.map(([x, y, , w]) => [(x / w * 0.5 + 0.5) * width, (y / w * 0.5 + 0.5) * height]);
+        kEdges.forEach(([from, to], place) =>
+            edges.push(pixels[from][0], pixels[from][1], pixels[to][0], pixels[to][1], place));
+    } else {
+        kEdges.forEach(([from, to], place) => {
+            const segment = visible_segment(corners[from], corners[to], width, height);
+            if (segment) edges.push(...segment, place);
+        });
+    }
+    return edges.length > 0 ? {edges, depth} : null;
 }
 
 // The convex hull of points [x, y], in order around it.

@@ -18,9 +18,10 @@ import {Wishes} from './wishes.js';
 
 const kResizeRestMs = 150;   // before a new size is asked for
 const kPanelMs = 160;        // between two updates of numbers and bars, so that they can be read
-const kStateWaitMs = 300;    // for a `state` note before the page starts from nothing
+const kStateWaitMs = 300;    // for a `state` note before the page starts from what it knows
 const kHintMs = 2500;
 const kRateWindowMs = 1500;
+const kLeastNamed = 0.02;    // of the critical path
 
 const at = (id) => document.getElementById(id);
 
@@ -29,6 +30,7 @@ const now = {
     audience: null,  // the newest note of each kind
     session: null,
     state: null,
+    state_fresh: false,  // it came over this connection
     objects: null,
     speedup: null,
     frames: [null, null],
@@ -66,7 +68,7 @@ const connection = new Connection(
         },
         lost: () => {
             now.connected = false;
-            now.leading = false;
+            now.leading = now.state_fresh = false;
             now.audience = null;
             refresh();
         },
@@ -110,7 +112,7 @@ function take_over() {
 }
 
 function take_over_soon() {
-    if (now.state) return take_over();
+    if (now.state_fresh) return take_over();
     clearTimeout(now.take_over_timer);
     now.take_over_timer = setTimeout(() => {
         take_over();
@@ -157,7 +159,7 @@ function why_not_steered() {
     const {connected, audience, session} = now;
     if (!connected || !audience) return 'There is no connection';
     if (!audience.session || !session) return 'There is no client yet';
-    if (!session.live) return `This run follows a camera path${session.why ? `: ${session.why}` : ''}`;
+    if (!session.live) return `Cannot be steered: ${session.why ?? 'this run follows a camera path'}`;
     if (audience.lead !== audience.you) return `Viewer ${audience.lead} steers. “Steer” takes over.`;
     return '';
 }
@@ -178,11 +180,13 @@ const kNotes = {
         if (now.session && JSON.stringify(now.session) !== JSON.stringify(note)) forget_session();
         now.session = note;
         stage.background = note.background;
+        gantt.machines = (note.servers?.length ?? 1) + 2;
         if (leads() && !now.leading) take_over_soon();
         refresh();
     },
     state: (note) => {
         now.state = note;
+        now.state_fresh = true;
         if (leads() && !now.leading) take_over();
         if (note.by === now.audience?.you)
             for (const [field, reason] of Object.entries(note.refused ?? {})) {
@@ -283,9 +287,18 @@ function update_panels() {
         plan: stage.stream(stream).plan, frame: now.frames[stream], title: stage.split ? `${'AB'[stream]} ` : '',
     })));
     if (gantt.paused) return;
-    const text = frames.map((frame) => (stage.split ? `${'AB'[frame.stream]}: ` : '') + critical_summary(frame)).join(' | ');
-    at('critical').textContent = text && `Critical path: ${text}`;
-    at('gantt').setAttribute('aria-label', `Gantt chart of the last frames. ${at('critical').textContent}`);
+    const lines = streams.map((stream) => {
+        const title = `Critical path${stage.split ? ` ${'AB'[stream]}` : ''}, `;
+        const [short, whole] = [kLeastNamed, 0].map((least) => critical_summary(now.frames[stream], least));
+        return short && {short: title + short, whole: title + whole};
+    });
+    [...at('critical').children].forEach((element, place) => {
+        element.hidden = place >= streams.length;
+        element.textContent = lines[place]?.short ?? '';
+        element.title = lines[place]?.whole ?? '';
+    });
+    at('gantt').setAttribute('aria-label', ['Gantt chart of the last frames', ...lines.map((line) => line?.whole)]
+        .filter(Boolean).join('. '));
 }
 
 function situation() {
@@ -299,7 +312,7 @@ function situation() {
                 notice: ['Waiting for a client', 'Pictures come as soon as a client begins a run with this display.']};
     const others = audience.viewers > 1 ? `; ${plural(audience.viewers, 'viewer')}` : '';
     if (!session.live)
-        return {state: 'good', text: `Follows a camera path; cannot be steered${session.why ? `: ${session.why}` : ''}${others}`};
+        return {state: 'good', text: `${why_not_steered()}${others}`};
     if (state?.busy) return {state: 'busy', text: `${state.busy}${others}`};
     if (!leads()) return {state: 'good', text: `Viewer ${audience.lead} steers, you follow${others}`};
     return {state: 'good', text: `You steer${others}`};
@@ -309,11 +322,11 @@ function refresh() {
     now.was_connected ||= now.connected;
     const {session, state, audience} = now;
     const steering_here = now.leading;
-    const values = steering_here ? wishes.want : state ?? {};
+    const values = steering_here ? wishes.want : state ?? stage.stream(0).plan ?? {};
     const why = why_not_steered() || (steering_here ? '' : 'Not known yet');
 
     const {state: mood, text, notice} = situation();
-    if (at('status').textContent !== text) at('status').textContent = text;
+    if (at('status').textContent !== text) at('status').textContent = at('status').title = text;
     at('status').dataset.state = mood;
     at('notice').hidden = !notice;
     if (notice) [at('notice').children[0].textContent, at('notice').children[1].textContent] = notice;
@@ -325,8 +338,7 @@ function refresh() {
     at('picture-0').setAttribute('aria-label', session ? `Picture of ${session.model}` : 'Picture');
 
     const lead = at('lead');
-    lead.textContent = leads() ? 'Steering' : 'Steer';
-    disable(lead, leads() ? 'You steer' : session?.live && audience ? '' : why_not_steered());
+        disable(lead, leads() ? 'You steer' : session?.live && audience ? '' : why_not_steered());
 
     controls.update(session, values, why);
     press(at('pause'), Boolean(values.paused));

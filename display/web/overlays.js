@@ -8,11 +8,13 @@ import {area, borders, group_ids, hull, rectangles, wireframe} from './geometry.
 const kDim = 0.4;  // black over the model: 0.6 of its brightness remain
 const kTint = 0.32;
 const kBehind = 0.3;  // what a box leaves of the lines behind it
+const kSlices = 24;
 const kWhitePerTransfer = 0.45;
 const kWhitest = 0.9;
 const kReplicated = {colour: 'rgb(255 196 46)', opacity: 0.95};
 const kBoxes = {colour: 'rgb(130 205 255)', opacity: 0.8};
 const kGroups = {opacity: 0.9};
+const kNumberSize = 13;  // CSS pixels
 
 export const kLayers = ['tiles', 'groups', 'boxes', 'swaths', 'overlap'];
 
@@ -27,13 +29,14 @@ export function whiteness(count) {
 }
 
 // Draws what `show` (a set of layers) names. The canvas has the picture's place on the page and its own
-// number of pixels. `objects` counts only if it is of the plan's generation. `hot` is a server to point out.
-export function draw_overlays(canvas, plan, objects, show, hot = null) {
+// number of pixels. `objects` counts only if it is of the plan's generation. `hot` is a server to point out,
+// `at_rest` whether there is time for finer lines.
+export function draw_overlays(canvas, plan, objects, show, hot = null, at_rest = true) {
     const context = canvas.getContext('2d');
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, canvas.width, canvas.height);
     if (!plan || (show.size === 0 && hot === null)) return;
-    const draw = new Layers(context, canvas, plan);
+    const draw = new Layers(context, canvas, plan, at_rest);
     if (show.size > 0) draw.dim();
     if (show.has('tiles')) draw.tints();
     if (show.has('swaths')) draw.swaths();
@@ -74,14 +77,16 @@ class Layers {
     #width;
     #height;
     #plan;
+    #at_rest;
     #per_pixel;  // canvas pixels a picture pixel
 
-    constructor(context, {width, height}, plan) {
+    constructor(context, {width, height}, plan, at_rest) {
         this.#to = context;
         this.#width = width;
         this.#height = height;
         this.#plan = plan;
         this.#per_pixel = width / plan.width;
+        this.#at_rest = at_rest;
     }
 
     dim() {
@@ -113,8 +118,9 @@ class Layers {
         });
     }
 
-    // Far to near, each box fading what lies behind it. `colours_of` has a box's colours, which take turns
-    // along its edges; nothing if it is not to be drawn.
+    // Far to near in slices, each fading the lines behind it: one slice a box would be exact, but takes the
+    // browser too long. `colours_of` has a box's colours, which take turns along its edges; nothing if it is
+    // not to be drawn.
     boxes(boxes, colours_of, opacity) {
         const {width, height, clip} = this.#plan;
         const frames = [];
@@ -125,36 +131,53 @@ class Layers {
         }
         frames.sort((a, b) => b.depth - a.depth);
         const layer = this.#layer();
-        layer.lineWidth = Math.max(1, this.#width / 900);
-        layer.lineCap = 'round';
-        const scale = this.#per_pixel;
-        const point = (x, y) => [x * scale, this.#height - y * scale];
-        for (const {edges, colours} of frames) {
-            layer.globalCompositeOperation = 'destination-out';
-            layer.fillStyle = `rgb(0 0 0 / ${1 - kBehind})`;
-            layer.beginPath();
-            for (const [x, y] of hull(edges.flatMap(({segment: [x0, y0, x1, y1]}) => [[x0, y0], [x1, y1]])))
-                layer.lineTo(...point(x, y));
-            layer.fill();
-            layer.globalCompositeOperation = 'source-over';
-            colours.forEach((colour, turn) => {
-                layer.strokeStyle = colour;
-                layer.beginPath();
-                for (const {segment: [x0, y0, x1, y1], place} of edges)
-                    if (place % colours.length === turn) {
-                        layer.moveTo(...point(x0, y0));
-                        layer.lineTo(...point(x1, y1));
-                    }
-                layer.stroke();
-            });
-        }
+        // Browsers draw lines of one pixel several times as fast as any others.
+        layer.lineWidth = this.#at_rest ? Math.max(1, this.#width / 900) : 1;
+        const size = Math.ceil(frames.length / kSlices);
+        for (let begin = 0; begin < frames.length; begin += size)
+            this.#slice(layer, frames.slice(begin, begin + size));
         this.#blend(layer, opacity);
+    }
+
+    #slice(layer, frames) {
+        const scale = this.#per_pixel;
+        const x = (at) => at * scale;
+        const y = (at) => this.#height - at * scale;
+        layer.globalCompositeOperation = 'destination-out';
+        layer.fillStyle = `rgb(0 0 0 / ${1 - kBehind})`;
+        layer.beginPath();
+        const lines = new Map();  // colour to [x0, y0, x1, y1] of its lines
+        for (const {edges, colours} of frames) {
+            const points = [];
+            for (let i = 0; i < edges.length; i += 5) {
+                points.push([edges[i], edges[i + 1]], [edges[i + 2], edges[i + 3]]);
+                const colour = colours[edges[i + 4] % colours.length];
+                if (!lines.has(colour)) lines.set(colour, []);
+                lines.get(colour).push(edges[i], edges[i + 1], edges[i + 2], edges[i + 3]);
+            }
+            hull(points).forEach((point, place) => {
+                if (place === 0) layer.moveTo(x(point[0]), y(point[1]));
+                else layer.lineTo(x(point[0]), y(point[1]));
+            });
+            layer.closePath();
+        }
+        layer.fill();
+        layer.globalCompositeOperation = 'source-over';
+        for (const [colour, ends] of lines) {
+            layer.strokeStyle = colour;
+            layer.beginPath();
+            for (let i = 0; i < ends.length; i += 4) {
+                layer.moveTo(x(ends[i]), y(ends[i + 1]));
+                layer.lineTo(x(ends[i + 2]), y(ends[i + 3]));
+            }
+            layer.stroke();
+        }
     }
 
     // Each server's number in the middle of its largest rectangle: colours alone do not name it.
     numbers() {
         const context = this.#to;
-        const size = Math.round(Math.min(Math.max(this.#width / 70, 11), 22));
+        const size = Math.round(kNumberSize * devicePixelRatio);
         context.font = `600 ${size}px system-ui, sans-serif`;
         context.textAlign = 'center';
         context.textBaseline = 'middle';

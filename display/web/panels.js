@@ -37,7 +37,7 @@ export function show_frames(frames, others) {
     const first = frames[0];
     set_text('frame-note', first ? `${first.frame} · ${frames.map(({algorithm}) => algorithm).join(' and ')}` : '');
     set_text('prediction-state', !first ? '' : first.prediction
-        ? `: ${frames.map((frame) => frame.prediction ? ms(frame.prediction.frame) : '–').join(' and ')} a frame`
+        ? `: ${frames.map((frame) => frame.prediction ? ms(frame.prediction.frame) : '–').join(' and ')}`
         : '; not known yet');
     if (!first) {
         at('frame-table').tHead?.remove();
@@ -49,6 +49,7 @@ export function show_frames(frames, others) {
     const phases = in_order(new Map(columns.flatMap(({measured, predicted}) =>
         [...measured, ...(predicted ?? [])]))).map(([phase]) => phase);
     const known = columns.some(({predicted}) => predicted);
+    const counted = [...new Set(columns.flatMap(({counters}) => Object.keys(counters)))];
     const value = (map, phase) => map?.get(phase) > 0 ? decimal(map.get(phase)) : '';
     if (first)
         fill_table(at('frame-table'), ['ms', ...columns.map(({title}) => title)], [
@@ -59,7 +60,9 @@ export function show_frames(frames, others) {
             ['all', ...columns.map(({measured}) => decimal(total(measured)))],
             ...(known ? [['all, predicted', ...columns.map(({predicted}) =>
                 predicted ? decimal(total(predicted)) : '')]] : []),
-            ['CPU', ...columns.map(({cpu}) => total(cpu) > 0 ? decimal(total(cpu)) : '')],
+            ['all, CPU', ...columns.map(({cpu}) => total(cpu) > 0 ? decimal(total(cpu)) : '')],
+            ...counted.map((counter) => [counter.replaceAll('_', ' '), ...columns.map(({counters}) =>
+                counters[counter] === undefined ? '' : whole(counters[counter]))]),
         ]);
     at('bars').setAttribute('aria-label', first
         ? `What each machine spent: ${columns.map(({name, measured}) => `${name} ${ms(total(measured))}`).join(', ')}`
@@ -71,11 +74,11 @@ const short = (name) => server_number(name) ?? name;
 
 function show_others(others, frame) {
     const table = at('predictions');
-    fill_table(table, ['Algorithm', 'Frame', 'Against this', 'Overlap', 'Swapped'], (others ?? []).map((other) => [
+    fill_table(table, ['Algorithm', 'Frame', 'Compared', 'Overlap', 'Swaps'], (others ?? []).map((other) => [
         other.algorithm,
         ms(other.frame),
-        other.algorithm === frame?.algorithm ? 'in use' : `${times(other.ratio)} as long`,
-        times(other.overlap),
+        other.algorithm === frame?.algorithm ? 'in use' : `${other.ratio.toFixed(1)}× as long`,
+        other.overlap.toFixed(2),
         compact(other.swap_pixels),
     ]));
     const body = table.tBodies[0];
@@ -103,15 +106,13 @@ export function show_links(streams) {
                 groups ? whole(groups[server]?.length ?? 0) : '–',
                 counters.triangles === undefined ? '–' : compact(counters.triangles),
                 compact(of('from')),
-                counters.swap_pixels === undefined ? '–' : compact(counters.swap_pixels),
                 compact(of('to')),
-                counters.received_pixels === undefined ? '–' : compact(counters.received_pixels),
             ]});
         });
     }
-    set_text('links-note', streams.length ? `${compact(sent)} in swaths` : '');
+    set_text('links-note', streams.length ? `${compact(sent)} pixels in swaths` : '');
     fill_table(at('links'),
-        ['Server', 'Tile', 'Objects', 'Triangles', 'Sends', 'not empty', 'Receives', 'not empty'],
+        ['Server', 'Tile', 'Objects', 'Triangles', 'Sends', 'Receives'],
         rows.map(({cells}) => cells));
     colour_rows(at('links'), rows.map(({server}) => server));
     if (!at('link-matrix').closest('details').open) return;

@@ -24,8 +24,9 @@ export function server_number(machine) {
 }
 
 // The chain of spans that a picture waited for, in words, with each part's share:
-// "server 2 render 41 % → swap → display assemble". Parts next to one another on one machine name it once.
-export function critical_text(critical) {
+// "server 2 render 41 % → swap → display assemble". A machine is named where the chain comes to it. Parts
+// smaller than `least` of the whole are left out.
+export function critical_text(critical, least = 0) {
     const total = critical.reduce((sum, span) => sum + span.end - span.begin, 0);
     const parts = [];
     for (const {machine, phase, begin, end} of critical) {
@@ -33,8 +34,8 @@ export function critical_text(critical) {
         if (last?.machine === machine && last.phase === phase) last.ms += end - begin;
         else parts.push({machine, phase, ms: end - begin});
     }
-    return parts.map(({machine, phase, ms}, place) => {
-        const who = parts[place - 1]?.machine === machine ? '' : `${machine} `;
+    return parts.filter(({ms}) => ms >= least * total).map(({machine, phase, ms}, place, all) => {
+        const who = all[place - 1]?.machine === machine ? '' : `${machine} `;
         const share = total > 0 ? ms / total : 0;
         return `${who}${phase}${share >= 0.05 ? ` ${Math.round(100 * share)} %` : ''}`;
     }).join(' → ');

@@ -35,11 +35,7 @@ export class Stage {
         const observer = new ResizeObserver((entries) => {
             for (const entry of entries) {
                 const cell = this.#cells.find(({element}) => element === entry.target);
-                const device = entry.devicePixelContentBoxSize?.[0];
-                cell.box = device
-                    ? [device.inlineSize, device.blockSize]
-                    : [entry.contentRect.width, entry.contentRect.height]
-                        .map((length) => Math.floor(length * devicePixelRatio));
+                cell.box = device_pixels(entry);
                 this.#place(cell);
                 this.redraw(this.#cells.indexOf(cell));
             }
@@ -106,7 +102,8 @@ export class Stage {
     redraw(number = null) {
         for (const at of number === null ? [0, 1] : [number]) {
             const {overlay, stream} = this.#cells[at];
-            draw_overlays(overlay, stream.plan, this.#objects, this.#show, this.#hot[at]);
+            draw_overlays(overlay, stream.plan, this.#objects, this.#show, this.#hot[at],
+                          stream.drawn?.header.format === 'png');
             this.#write_caption(at);
         }
     }
@@ -157,11 +154,11 @@ export class Stage {
         if (plan && this.split) {
             parts.push(`${'AB'[number]}: ${plan.algorithm}`);
             const busiest = note ? busiest_ms(note) : 0;
-            if (busiest > 0) parts.push(`${whole(busiest)} ms the busiest machine`);
+            if (busiest > 0) parts.push(`busiest ${whole(busiest)} ms`);
         }
         if (plan && (this.split || this.#show.has('overlap'))) parts.push(`overlap ${times(plan.overlap ?? 1)}`);
         if (plan && (this.split || this.#show.has('swaths')))
-            parts.push(`swaths ${compact(plan.links?.reduce((sum, link) => sum + area(link.rectangles), 0) ?? 0)} pixels`);
+            parts.push(`swaths ${compact(plan.links?.reduce((sum, link) => sum + area(link.rectangles), 0) ?? 0)}`);
         if (plan && ['groups', 'boxes', 'overlap'].some((layer) => this.#show.has(layer))) {
             if (this.#objects && !this.#objects.boxes)
                 parts.push(`${plural(this.#objects.count, 'object')}: too many for boxes`);
@@ -172,6 +169,15 @@ export class Stage {
         if (caption.textContent !== text) caption.textContent = text;
         caption.hidden = text === '';
     }
+}
+
+// The exact number of device pixels, which only this box knows where the pixel ratio is no whole number; unless
+// it contradicts the ratio, as it does while a browser plays another device.
+function device_pixels({contentRect, devicePixelContentBoxSize}) {
+    const computed = [contentRect.width, contentRect.height].map((length) => length * devicePixelRatio);
+    const exact = devicePixelContentBoxSize?.[0];
+    const pixels = exact ? [exact.inlineSize, exact.blockSize] : computed;
+    return pixels.map((count, axis) => Math.abs(count - computed[axis]) <= 1 ? count : Math.floor(computed[axis]));
 }
 
 // The time of the machine that was busy longest.
@@ -187,10 +193,10 @@ function server_rows(plan, server, frame) {
     const objects = groups_of(plan)?.[server]?.length;
     if (counters.triangles !== undefined) rows.push(['draws', plural(counters.triangles, 'triangle')]);
     if (objects !== undefined) rows.push(['group', plural(objects, 'object')]);
-    for (const {from, to, rectangles} of links) {
+    for (const {from, to, rectangles} of links)
         if (from === server) rows.push([`sends to ${to}`, `${whole(area(rectangles))} pixels`]);
+    for (const {from, to, rectangles} of links)
         if (to === server) rows.push([`receives from ${from}`, `${whole(area(rectangles))} pixels`]);
-    }
     const kMost = 14;
     if (rows.length > kMost) rows.splice(kMost - 1, Infinity, ['and', plural(rows.length - kMost + 1, 'link')]);
     if (counters.swap_pixels !== undefined) rows.push(['sent, not empty', `${whole(counters.swap_pixels)} pixels`]);

@@ -13,6 +13,14 @@ export class Tip {
         this.#table = box.querySelector('table');
     }
 
+    // `hover(event)` shows what a pointer is on. Under a finger it stays until the next touch.
+    attach(element, hover) {
+        element.addEventListener('pointermove', hover);
+        element.addEventListener('pointerdown', hover);
+        element.addEventListener('pointerleave', ({pointerType}) => pointerType === 'mouse' && this.hide());
+        document.addEventListener('pointerdown', ({target}) => target !== element && this.hide());
+    }
+
     // `rows` are lists of texts: what, value, and more.
     show(x, y, title, rows) {
         this.#title.textContent = title;
