@@ -347,7 +347,7 @@ Status ClusterRun::on_report(std::size_t i, const Report& report, const Buffer& 
         }
     }
     if (--frame.missing == 0) {
-        broadcast_.on_over(frame.finished, clock_.now());
+        broadcast_.on_over(frame.finished, live_ && live_->measuring(), clock_.now());
         timelines_.push_back(std::move(frame.finished.timeline));
         frames_.erase(found);
         if (live_ && timelines_.size() > kLiveHistory) timelines_.pop_front();

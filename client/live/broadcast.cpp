@@ -43,16 +43,23 @@ void Broadcast::tell_objects() {
 
 void Broadcast::on_state(const LiveView& live, const std::string& busy, const std::string& command) {
     keep(NoteTopic::kState, state_note(live, busy, command));
+    if (measuring_ && !live.measuring()) tell_speed_ups(false);
+}
+
+void Broadcast::tell_speed_ups(bool measuring) {
+    measuring_ = measuring;
+    keep(NoteTopic::kSpeedup, speedup_note(speed_ups_, measuring));
 }
 
 void Broadcast::on_planned(const FrameOrder& order, const FramePlan& plan, double overlap) {
     if (viewers_ > 0) tell(NoteTopic::kPlan, plan_note(order, plan, overlap, generation_), plan.frame);
 }
 
-void Broadcast::on_over(const FinishedFrame& frame, Nanoseconds now) {
+void Broadcast::on_over(const FinishedFrame& frame, bool measuring, Nanoseconds now) {
     FrameFindings findings;
     if (last_over_ && now - *last_over_ < kRest) findings.interval = now - *last_over_;
     last_over_ = now;
+    if (speed_ups_.on_frame(frame.order, frame.timeline, findings.interval, {})) tell_speed_ups(measuring);
     if (viewers_ > 0) tell(NoteTopic::kFrame, frame_note(frame, findings));
 }
 

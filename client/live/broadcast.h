@@ -13,8 +13,8 @@
 
 namespace swath {
 
-// Tells viewers about a run, and only while there are some: composes the notes and hands them to `send`. What stays
-// (session, objects, state, speed-ups) is told anew to whoever comes first. One thread.
+// Tells viewers about a run, and only while there are some: composes the notes and hands them to `send`. What
+// stays (session, objects, state, speed-ups) is told anew to whoever comes first. One thread.
 class Broadcast {
   public:
     using Send = std::function<void(NoteTopic, FrameNumber, const std::string&)>;
@@ -27,7 +27,8 @@ class Broadcast {
     void on_scene(std::shared_ptr<const ObjectSet> scene);
     void on_state(const LiveView& live, const std::string& busy, const std::string& command);
     void on_planned(const FrameOrder& order, const FramePlan& plan, double overlap);
-    void on_over(const FinishedFrame& frame, Nanoseconds now);
+    // `measuring`: more frames of a measurement will come.
+    void on_over(const FinishedFrame& frame, bool measuring, Nanoseconds now);
     void on_trace(const std::vector<FrameTimeline>& frames);
 
   private:
@@ -35,13 +36,16 @@ class Broadcast {
     // Kept for those who come first.
     void keep(NoteTopic topic, std::string text);
     void tell_objects();
+    void tell_speed_ups(bool measuring);
 
     Send send_;
     std::uint32_t viewers_ = 0;
     std::shared_ptr<const ObjectSet> scene_;
     std::uint64_t generation_ = 0;
     std::optional<Nanoseconds> last_over_;
-    std::map<NoteTopic, std::string> kept_;  // session, state
+    SpeedUps speed_ups_;
+    bool measuring_ = false;                 // as told
+    std::map<NoteTopic, std::string> kept_;  // session, state, speed-ups
 };
 
 }  // namespace swath

@@ -34,7 +34,8 @@ Status LiveView::on_wish(std::string_view json, std::uint32_t by) {
         measured_servers_ = 0;
         if (!wish_.against) second_.reset();
     }
-    if (wish_.path != before.path || wish_.width != before.width || wish_.height != before.height) start_path();
+    if (wish_.path != before.path || wish_.width != before.width || wish_.height != before.height)
+        start_path();
     // A page that has just loaded counts from 0: less than before asks for nothing.
     if (wish_.step > before.step) ++steps_;
     if (!wish_.paused) steps_ = 0;

@@ -26,9 +26,10 @@ struct FrameOrder {
     bool counts = false;          // ... and whether the frame counts, or only fills the pipeline
 };
 
-// Decides what a live run draws next, from the newest wish: a newer one replaces the older, nothing is queued. Frames
-// are wanted while somebody looks and the wish is new, a path plays, the second of two algorithms is due, a single step
-// was asked for or speed-ups are being measured. Sans-I/O, without a clock. Not thread-safe.
+// Decides what a live run draws next, from the newest wish: a newer one replaces the older, nothing is
+// queued. Frames are wanted while somebody looks and the wish is new, a path plays, the second of two
+// algorithms is due, a single step was asked for or speed-ups are being measured. Sans-I/O, without a clock.
+// Not thread-safe.
 class LiveView {
   public:
     struct Settings {
@@ -90,7 +91,8 @@ class LiveView {
     std::size_t measured_frames_ = 0;
 };
 
-// A measurement draws so many frames with each number of servers; the first ones overlap with those of another number.
+// A measurement draws so many frames with each number of servers; the first ones overlap with those of
+// another number.
 inline constexpr std::size_t kMeasuredFrames = 12;
 inline constexpr std::size_t kUncountedFrames = 4;
 

@@ -95,7 +95,8 @@ std::string objects_note(std::uint64_t generation, const ObjectSet& scene) {
     return text_of(note);
 }
 
-std::string plan_note(const FrameOrder& order, const FramePlan& plan, double overlap, std::uint64_t generation) {
+std::string plan_note(const FrameOrder& order, const FramePlan& plan, double overlap,
+                      std::uint64_t generation) {
     Json note{{"wish", order.wish},
               {"by", order.by},
               {"algorithm", name_of(order.algorithm)},
@@ -166,7 +167,8 @@ Json machine_json(const MachineTimeline& machine) {
         spans.push_back({name(span.phase), ms(span.begin), ms(span.end), ms(span.cpu)});
     Json counters = Json::object();
     for (std::size_t c = 0; c < kCounterCount; ++c)
-        if (machine.counters[c] > 0) counters[std::string(name(static_cast<Counter>(c)))] = machine.counters[c];
+        if (machine.counters[c] > 0)
+            counters[std::string(name(static_cast<Counter>(c)))] = machine.counters[c];
     return {{"name", machine.machine}, {"spans", std::move(spans)}, {"counters", std::move(counters)}};
 }
 
@@ -185,6 +187,19 @@ std::string frame_note(const FinishedFrame& frame, const FrameFindings& findings
     Json& machines = note["machines"] = Json::array();
     for (const MachineTimeline& machine : frame.timeline.machines) machines.push_back(machine_json(machine));
     return text_of(note);
+}
+
+std::string speedup_note(const SpeedUps& found, bool running) {
+    Json points = Json::array();
+    for (const SpeedUps::Point& point : found.points())
+        points.push_back({{"servers", point.servers},
+                          {"interval", point.interval_ms},
+                          {"busiest_cpu", point.busiest_cpu_ms},
+                          {"predicted", point.predicted_ms ? Json(*point.predicted_ms) : Json()}});
+    return text_of({{"type", "speedup"},
+                    {"algorithm", name_of(found.algorithm())},
+                    {"running", running},
+                    {"points", std::move(points)}});
 }
 
 std::string trace_note(const std::string& trace) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "client/live/live_view.h"
+#include "client/live/speed_ups.h"
 #include "client/partition/projection.h"
 #include "common/image/picture.h"
 #include "common/plan/frame_plan.h"
@@ -11,7 +12,8 @@
 
 namespace swath {
 
-// The texts that viewers get about a run: JSON objects, as docs/viewer.md lists them. Pure functions; any thread.
+// The texts that viewers get about a run: JSON objects, as docs/viewer.md lists them. Pure functions; any
+// thread.
 
 // A run as it stays.
 struct SessionFacts {
@@ -45,9 +47,11 @@ inline constexpr std::size_t kMaxBoxes = 50'000;
 // Without `live` the run follows a camera path.
 std::string session_note(const SessionFacts& facts, const LiveView* live, const WishLimits& limits);
 std::string objects_note(std::uint64_t generation, const ObjectSet& scene);
-std::string plan_note(const FrameOrder& order, const FramePlan& plan, double overlap, std::uint64_t generation);
+std::string plan_note(const FrameOrder& order, const FramePlan& plan, double overlap,
+                      std::uint64_t generation);
 std::string state_note(const LiveView& live, const std::string& busy, const std::string& command);
 std::string frame_note(const FinishedFrame& frame, const FrameFindings& findings);
+std::string speedup_note(const SpeedUps& found, bool running);
 // `trace` is JSON (to_chrome_trace).
 std::string trace_note(const std::string& trace);
 

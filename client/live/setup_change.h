@@ -4,8 +4,8 @@
 
 namespace swath {
 
-// Follows the servers through a change of setup, from the message that asks for it to the last answer: all of them
-// change, or all go back. Sans-I/O. Not thread-safe.
+// Follows the servers through a change of setup, from the message that asks for it to the last answer: all of
+// them change, or all go back. Sans-I/O. Not thread-safe.
 class SetupChange {
   public:
     enum class Next {

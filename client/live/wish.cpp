@@ -83,7 +83,8 @@ Status take_size(const Json& wide, const Json& high, const WishLimits& limits, L
 
 }  // namespace
 
-Result<Refusals> apply_wish(std::string_view text, std::uint32_t by, const WishLimits& limits, LiveWish& wish) {
+Result<Refusals> apply_wish(std::string_view text, std::uint32_t by, const WishLimits& limits,
+                            LiveWish& wish) {
     const Json json = Json::parse(text, nullptr, false);
     if (!json.is_object()) return fail("a wish that is no JSON object");
     Refusals refused;
@@ -101,7 +102,8 @@ Result<Refusals> apply_wish(std::string_view text, std::uint32_t by, const WishL
     field("against", [&](const Json& value) { return take_against(value, wish.against); });
     field("servers", [&](const Json& value) { return take(value, 1, limits.servers, wish.servers); });
     field("objects", [&](const Json& value) { return take(value, 1, kMaxLiveObjects, wish.setup.objects); });
-    field("renderer", [&](const Json& value) { return take_name(value, parse_renderer, wish.setup.renderer); });
+    field("renderer",
+          [&](const Json& value) { return take_name(value, parse_renderer, wish.setup.renderer); });
     field("cull", [&](const Json& value) { return take_name(value, parse_cull_algorithm, wish.setup.cull); });
     field("path", [&](const Json& value) { return take_path(value, wish.path); });
     field("paused", [&](const Json& value) { return take(value, wish.paused); });

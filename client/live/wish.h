@@ -13,7 +13,8 @@
 
 namespace swath {
 
-// What frames depend on besides the view and the way they are divided. To change it takes a pause between two frames.
+// What frames depend on besides the view and the way they are divided. To change it takes a pause between two
+// frames.
 struct LiveSetup {
     std::size_t objects = 1500;  // about how many
     RendererKind renderer = RendererKind::kOsmesa;
@@ -51,8 +52,9 @@ inline constexpr std::size_t kMaxLiveObjects = 1'000'000;
 // Why fields of a wish are not had, by their names.
 using Refusals = std::map<std::string, std::string>;
 
-// Takes into `wish` what the text says; fields that are missing, or that it gives reasons against, stay as they are. An
-// error when the text is no JSON object at all. Nothing in it is trusted.
-Result<Refusals> apply_wish(std::string_view json, std::uint32_t by, const WishLimits& limits, LiveWish& wish);
+// Takes into `wish` what the text says; fields that are missing, or that it gives reasons against, stay as
+// they are. An error when the text is no JSON object at all. Nothing in it is trusted.
+Result<Refusals> apply_wish(std::string_view json, std::uint32_t by, const WishLimits& limits,
+                            LiveWish& wish);
 
 }  // namespace swath

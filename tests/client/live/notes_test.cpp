@@ -69,7 +69,8 @@ TEST(Notes, OfTheStateSayWhatCountsAndWhatIsRefused) {
 
 TEST(Notes, OfTheSessionSayWhatThereIsToChooseFrom) {
     const LiveView live = live_view();
-    SessionFacts facts{"a \"model\"\xff", 12, {{0, 0, 0}, {1, 2, 3}}, {{"a:1", "llvmpipe"}, {"b:2", "x"}}, {1, 2, 255}};
+    SessionFacts facts{
+        "a \"model\"\xff", 12, {{0, 0, 0}, {1, 2, 3}}, {{"a:1", "llvmpipe"}, {"b:2", "x"}}, {1, 2, 255}};
     const Json note = Json::parse(session_note(facts, &live, {2, 100, 50}));
     EXPECT_EQ(note["triangles"], 12);
     EXPECT_EQ(note["live"], true);

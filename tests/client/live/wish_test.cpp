@@ -103,13 +103,15 @@ TEST_F(WishTest, RefusesCamerasThatNobodyCanLookThrough) {
 }
 
 TEST_F(WishTest, IsNoneWithoutAnObject) {
-    for (const char* text : {"", "null", "[1]", "\"wish\"", "{", "{\"id\":1}}", "\xff\xfe", "{\"id\":\"\xff\"}"})
+    for (const char* text :
+         {"", "null", "[1]", "\"wish\"", "{", "{\"id\":1}}", "\xff\xfe", "{\"id\":\"\xff\"}"})
         EXPECT_FALSE(apply_wish(text, 1, limits_, wish_).has_value()) << text;
 }
 
 TEST_F(WishTest, OfRandomBytesIsRefusedOrAWish) {
     std::mt19937 random(3);
-    const std::string good = R"({"id":7,"camera":[1,2,3,0,0,0,0,1,0,30.5],"width":640,"height":480,"servers":3})";
+    const std::string good =
+        R"({"id":7,"camera":[1,2,3,0,0,0,0,1,0,30.5],"width":640,"height":480,"servers":3})";
     for (int i = 0; i < 5000; ++i) {
         std::string text = good;
         for (unsigned k = 0; k < 1 + random() % 4; ++k)
