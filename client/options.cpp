@@ -160,6 +160,9 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         if (options.display && !view.empty())
             return refuse({"--view: this display runs already; give the port to its own --view"});
         options.view = options.display ? "" : view.empty() ? "8080" : view;
+        if (!view.empty())
+            if (const auto address = parse_local_address(view); !address)
+                return refuse({"--view: " + address.error().message});
         const auto largest = parse_size("--view-max-size", max_view);
         if (!largest) return refuse(largest.error());
         options.view_limits.max_width = largest->width;

@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
     options.listen = *address;
     WebServer::Options web;
     if (!view.empty()) {
-        const auto at = parse_address(view.find(':') == std::string::npos ? "127.0.0.1:" + view : view);
+        const auto at = parse_local_address(view);
         if (!at) return usage_error({"--view: " + at.error().message});
         web.listen = *at;
     }

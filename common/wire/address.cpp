@@ -21,6 +21,11 @@ Result<Address> parse_address(std::string_view text) {
     return Address{std::string(host), port};
 }
 
+Result<Address> parse_local_address(std::string_view text) {
+    if (text.find(':') != std::string_view::npos) return parse_address(text);
+    return parse_address("127.0.0.1:" + std::string(text));
+}
+
 std::string to_string(const Address& address) {
     return address.host.find(':') == std::string::npos ? fmt::format("{}:{}", address.host, address.port)
                                                        : fmt::format("[{}]:{}", address.host, address.port);

@@ -14,6 +14,8 @@ struct Address {
     bool operator==(const Address&) const = default;
 };
 Result<Address> parse_address(std::string_view text);
+// "[HOST:]PORT" of something for this machine's own people: 127.0.0.1 unless it says otherwise.
+Result<Address> parse_local_address(std::string_view text);
 std::string to_string(const Address& address);
 
 }  // namespace swath
