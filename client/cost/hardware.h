@@ -53,7 +53,7 @@ struct Hardware {
         // kHost; of pixels that are sent, that is active ones.
         double pack_pixels_per_s = 0;    // coding swaths, gathering tiles
         double gather_pixels_per_s = 0;  // gathering tiles, where it is known apart; profiles have none
-        double merge_pixels_per_s = 0;  // decoding and depth test of received pixels
+        double merge_pixels_per_s = 0;   // decoding and depth test of received pixels
     } server;
 
     struct Display {

@@ -52,7 +52,8 @@ std::optional<RecentLine::Line> RecentLine::line() const {
     }
     const double steepest_s = time_s / amount;
     if (slopes.empty()) return Line{0, steepest_s};
-    const double each_s = std::clamp(lower_median(slopes.begin(), slopes.end()), 0.0, steepest_s);
+    const double each_s =
+        std::clamp(lower_median(slopes.begin(), slopes.end()), (1 - kMostFixed) * steepest_s, steepest_s);
     return Line{time_s - each_s * amount, each_s};
 }
 

@@ -24,9 +24,13 @@ class RecentMedian {
 
 // What an amount of work takes: something fixed and something for each unit, from measured (amount, time)
 // pairs. Recent ones of about the same amount (within a factor of 1.4) have a common median of each. The
-// newest one's median lies on the line; the others, as long as they are remembered, say how steep it is: the
-// median of their slopes, but so that neither part is less than nothing. While all amounts are about the same
-// there is nothing to tell the parts by, and all is for each unit.
+// newest one's median lies on the line; the others, as long as they are remembered, say how steep it is, by
+// the median of their slopes. While all amounts are about the same there is nothing to tell the parts by, and
+// all is for each unit.
+//
+// No part is less than nothing, and at most half of what the newest amount takes is fixed: where servers
+// share cores, half of the work on twice the servers takes as long as before, which does not mean that work
+// is free.
 class RecentLine {
   public:
     struct Line {
@@ -40,7 +44,8 @@ class RecentLine {
 
   private:
     static constexpr std::size_t kMemory = 2000;  // pairs, after which what has not been seen is forgotten
-    static constexpr double kApart = 1.5;         // how much amounts differ to say something of the slope
+    static constexpr double kMostFixed = 0.5;
+    static constexpr double kApart = 1.5;  // how much amounts differ to say something of the slope
     struct Class {
         RecentMedian amount;
         RecentMedian time_s;

@@ -70,7 +70,7 @@ void Rates::add(const FramePlan& plan, const FrameTimeline& timeline, Algorithm 
     if (servers[Counter::kTriangles] > 0)
         render_.add(servers[Counter::kTriangles] / drawing,
                     (servers[Phase::kCull] + servers[Phase::kRender]) / drawing);
-    if (content > 0) readback_.add(content / drawing, servers[Phase::kPixelRead] / drawing);
+    readback_.add(content / drawing, servers[Phase::kPixelRead] / drawing);
     add_ratio(code_s_, servers[Phase::kSwap], servers[Counter::kSwapPixels]);
     add_ratio(merge_s_, servers[Phase::kPixelWrite], servers[Counter::kReceivedPixels]);
     add_ratio(gather_s_, servers[Phase::kFinalRead] + servers[Phase::kSend], servers[Counter::kTilePixels]);

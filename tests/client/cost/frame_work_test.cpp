@@ -34,7 +34,8 @@ FramePlan plan_of(std::vector<ServerShare> servers) {
 // Two servers whose groups overlap by [18,22) x [2,8); the tiles meet at 20.
 TEST(FrameWork, IsWhatThePlanMakesEachServerDrawSendAndMerge) {
     const std::vector<ProjectedObject> objects{{{4, 2, 22, 8}, 7, true}, {{18, 2, 36, 8}, 5, true}};
-    const FramePlan plan = plan_of({{{0}, {{0, 0, 20, 10}}, objects[0].box}, {{1}, {{20, 0, 40, 10}}, objects[1].box}});
+    const FramePlan plan =
+        plan_of({{{0}, {{0, 0, 20, 10}}, objects[0].box}, {{1}, {{20, 0, 40, 10}}, objects[1].box}});
     const Hardware hardware = some_hardware();
     const Pricer price(hardware);
     const auto work = frame_work(plan, objects, hardware);
