@@ -6,14 +6,14 @@
 #include <numeric>
 #include <utility>
 
+#include "client/cost/client_time.h"
+#include "client/cost/frame_work.h"
+#include "client/cost/pricer.h"
 #include "client/director/director.h"
 #include "common/base/check.h"
 #include "display/assemble/assembly.h"
 #include "server/swap/frame_swap.h"
 #include "sim/cluster/simulated_server.h"
-#include "sim/cost/client_time.h"
-#include "sim/cost/frame_work.h"
-#include "sim/cost/pricer.h"
 #include "sim/engine/event_queue.h"
 #include "sim/engine/flow_network.h"
 #include "sim/engine/station.h"
@@ -97,7 +97,7 @@ class Cluster {
         const FramePlan plan = partitioner_->partition({number, view, objects, scenario_.servers});
         Frame& frame = frames_[number];
         frame.work = frame_work(plan, objects, scenario_.hardware);
-        frame.overlap_factor = overlap_of(plan);
+        frame.overlap_factor = overlap_factor(plan, scenario_.objects);
         singles_s_.push_back(drawing_s(objects));
         const double time_s =
             client_s(objects.size(), scenario_.servers, scenario_.algorithm, scenario_.hardware);
@@ -107,16 +107,6 @@ class Cluster {
             issued.client.spans.push_back({Phase::kPartition, begin, end, end - begin});
             send_tasks(number);
         });
-    }
-
-    // Triangles assigned over triangles of the model, as the cluster reports it.
-    double overlap_of(const FramePlan& plan) const {
-        double model = 0;
-        double assigned = 0;
-        for (const Object& object : scenario_.objects) model += object.triangle_count;
-        for (const ServerShare& share : plan.servers)
-            for (const ObjectId id : share.group) assigned += scenario_.objects[id].triangle_count;
-        return model > 0 ? assigned / model : 1;
     }
 
     // What one server that draws all of it takes.

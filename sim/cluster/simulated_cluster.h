@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "client/cost/hardware.h"
 #include "client/partition/partitioner.h"
 #include "common/base/clock.h"
 #include "common/geometry/camera.h"
 #include "common/scene/objects.h"
 #include "common/timeline/timeline.h"
-#include "sim/hardware/hardware.h"
 
 namespace swath::sim {
 

@@ -5,11 +5,11 @@
 #include <map>
 #include <vector>
 
+#include "client/cost/frame_work.h"
 #include "common/base/check.h"
 #include "common/base/result.h"
 #include "common/timeline/timeline.h"
 #include "server/swap/frame_swap.h"
-#include "sim/cost/frame_work.h"
 #include "sim/engine/station.h"
 
 namespace swath::sim {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "client/cost/client_time.h"
+#include "client/cost/pricer.h"
 #include "client/partition/mahd.h"
 #include "common/base/check.h"
-#include "sim/cost/client_time.h"
-#include "sim/cost/pricer.h"
 
 namespace swath::sim {
 namespace {

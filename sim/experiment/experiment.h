@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "client/cost/hardware.h"
 #include "client/partition/partitioner.h"
 #include "common/geometry/camera.h"
 #include "sim/cluster/simulated_cluster.h"
 #include "sim/cost/paper_frame.h"
 #include "sim/experiment/model.h"
-#include "sim/hardware/hardware.h"
 #include "sim/table/table.h"
 
 namespace swath::sim {

@@ -12,6 +12,7 @@
 #include "common/base/check.h"
 #include "common/base/file.h"
 #include "common/program/progress.h"
+#include "sim/hardware/hardware.h"
 
 namespace swath::sim {
 namespace {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "sim/cost/client_time.h"
+#include "client/cost/client_time.h"
 #include "sim/picture/figures.h"
 #include "sim/studies/pictures.h"
 #include "sim/studies/studies.h"

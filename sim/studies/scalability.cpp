@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "sim/cost/client_time.h"
+#include "client/cost/client_time.h"
 #include "sim/studies/published.h"
 #include "sim/studies/studies.h"
 

@@ -36,8 +36,9 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
 };
 
 // Decision code of the programs, which the simulator drives too.
-const std::set<std::string_view> kDecisionFolders = {"client/partition", "client/director", "client/path",
-                                                     "server/swap", "display/assemble"};
+const std::set<std::string_view> kDecisionFolders = {"client/partition", "client/cost", "client/predict",
+                                                     "client/director",  "client/path", "server/swap",
+                                                     "display/assemble"};
 
 // Where <boost/asio.hpp> may be included: networking. Also in every main.cpp and in tests.
 const std::set<std::string_view> kAsioFolders = {"common/wire",   "common/program", "client/cluster",

@@ -9,6 +9,7 @@
 #include "client/partition/partitioner.h"
 #include "sim/engine/event_queue.h"
 #include "sim/experiment/experiment.h"
+#include "sim/hardware/hardware.h"
 #include "tests/bench/figures.h"
 
 namespace swath::bench {

@@ -1,15 +1,15 @@
 #pragma once
+#include "client/cost/hardware.h"
 #include "common/geometry/camera.h"
-#include "sim/hardware/hardware.h"
 
 namespace swath::test {
 
 inline constexpr double kNothing = 1e-6;  // seconds that free_hardware() may take for a frame
 
 // Machines and a network that take no time worth counting.
-inline sim::Hardware free_hardware() {
+inline Hardware free_hardware() {
     constexpr double kFast = 1e15;  // a second, whatever it is
-    sim::Hardware hardware;
+    Hardware hardware;
     hardware.name = "free";
     hardware.network.bytes_per_s = kFast;
     hardware.network.swath_bytes_per_pixel = 8;

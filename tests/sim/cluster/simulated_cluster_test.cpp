@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/cost/frame_work.h"
+#include "client/cost/frame_work.h"
 #include "tests/client/partition/scenes.h"
 #include "tests/sim/cluster/machines.h"
 

@@ -9,6 +9,7 @@
 #include "client/path/path.h"
 #include "common/scene/model.h"
 #include "sim/cluster/simulated_cluster.h"
+#include "sim/hardware/hardware.h"
 #include "tests/client/partition/scenes.h"
 #include "tests/sim/cluster/machines.h"
 

@@ -6,8 +6,6 @@
 
 #include <map>
 
-#include "sim/cost/client_time.h"
-
 namespace swath::sim {
 namespace {
 
@@ -20,7 +18,6 @@ Hardware slow() {
     hardware.server.colour = {100, 1, 0.5};
     hardware.server.depth = {100, 1, 0.5};
     hardware.display.colour = {100, 1, 1.0 / 3};
-    hardware.client = {1, 10, 1000};
     return hardware;
 }
 
@@ -125,11 +122,6 @@ TEST(PaperFrame, CountsObjectsThatNobodySees) {
     EXPECT_EQ(frame.servers[1].render_s, 16);
     EXPECT_EQ(frame.servers[1].read_s, 2 * (100 + 2 * 8));  // its group now reaches down to y 0
     EXPECT_EQ(frame.servers[0].final_s, 100 + 16 * 8);      // and so does the region
-}
-
-TEST(ClientTime, GrowsWithServersUnlessGroupsAreStatic) {
-    EXPECT_EQ(client_s(3, 8, Algorithm::kHybrid, slow()), 3 * (1 + 80 + 3000));
-    EXPECT_EQ(client_s(3, 8, Algorithm::kSortLast, slow()), 3);
 }
 
 // Two frames of two servers; the longest takes 10 and 8 ms.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/base/check.h"
+#include "sim/hardware/hardware.h"
 
 namespace swath::sim {
 namespace {

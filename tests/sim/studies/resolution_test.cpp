@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "sim/experiment/experiment.h"
+#include "sim/hardware/hardware.h"
 #include "tests/support/models.h"
 
 namespace swath::sim {

@@ -1,8 +1,8 @@
-#include "sim/cost/frame_work.h"
+#include "client/cost/frame_work.h"
 
-#include "sim/cost/pricer.h"
+#include "client/cost/pricer.h"
 
-namespace swath::sim {
+namespace swath {
 namespace {
 
 // About what a task takes on the wire (docs/wire.md): view, rectangles and framing, and an id an object.
@@ -32,12 +32,21 @@ std::vector<ServerWork> frame_work(const FramePlan& plan, std::span<const Projec
         work.takes_part = !share.content.empty() || work.has_tile || work.render_s > 0;
     }
     for (const Transfer& transfer : transfers(plan)) {
-        all[index(transfer.from)].outgoing.push_back({transfer.to, price.send_swath_s(transfer.region),
-                                                      price.merge_swath_s(transfer.region),
-                                                      price.swath_bytes(transfer.region)});
+        all[index(transfer.from)].outgoing.push_back(
+            {transfer.to, price.send_swath_s(transfer.region), price.merge_swath_s(transfer.region),
+             price.swath_pixels(transfer.region), price.swath_bytes(transfer.region)});
         all[index(transfer.to)].incoming.push_back(transfer.from);
     }
     return all;
 }
 
-}  // namespace swath::sim
+double overlap_factor(const FramePlan& plan, std::span<const Object> model) {
+    double triangles = 0;
+    double assigned = 0;
+    for (const Object& object : model) triangles += object.triangle_count;
+    for (const ServerShare& share : plan.servers)
+        for (const ObjectId id : share.group) assigned += model[id].triangle_count;
+    return triangles > 0 ? assigned / triangles : 1;
+}
+
+}  // namespace swath

@@ -1,8 +1,8 @@
 #pragma once
+#include "client/cost/hardware.h"
 #include "common/geometry/rect.h"
-#include "sim/hardware/hardware.h"
 
-namespace swath::sim {
+namespace swath {
 
 // What the steps of a server's frame take on given hardware, in seconds and bytes. With compositing on the
 // graphics card every rectangle is an operation of its own on every buffer; in host memory it is pixels at a
@@ -11,12 +11,13 @@ class Pricer {
   public:
     explicit Pricer(const Hardware& hardware) : hardware_(hardware), server_(hardware.server) {}
 
-    // The longer of polygons and pixels.
+    // The longer of polygons and pixels, and what every frame costs; nothing where there are neither.
     double render_s(double polygons, const Rect& content) const;
     // Host compositing: all that was drawn to host memory. Nothing on the card.
     double readback_s(const Rect& content) const;
     double send_swath_s(const Region& region) const;   // the sender's work
     double merge_swath_s(const Region& region) const;  // the receiver's
+    double swath_pixels(const Region& region) const;   // that are sent
     double swath_bytes(const Region& region) const;
     double read_tile_s(const Region& region) const;     // the server's work for its tile
     double display_tile_s(const Region& region) const;  // the display's
@@ -24,11 +25,10 @@ class Pricer {
 
   private:
     bool on_host() const { return server_.compositing == Compositing::kHost; }
-    double sent_of_swath(const Region& region) const;  // pixels
-    double sent_of_tile(const Region& region) const;
+    double sent_of_tile(const Region& region) const;  // pixels
 
     const Hardware& hardware_;
     const Hardware::Server& server_;
 };
 
-}  // namespace swath::sim
+}  // namespace swath

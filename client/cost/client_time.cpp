@@ -1,8 +1,8 @@
-#include "sim/cost/client_time.h"
+#include "client/cost/client_time.h"
 
 #include <cmath>
 
-namespace swath::sim {
+namespace swath {
 
 double client_s(std::size_t objects, std::size_t servers, Algorithm algorithm, const Hardware& hardware) {
     const Hardware::Client& client = hardware.client;
@@ -13,4 +13,4 @@ double client_s(std::size_t objects, std::size_t servers, Algorithm algorithm, c
     return each_s * static_cast<double>(objects);
 }
 
-}  // namespace swath::sim
+}  // namespace swath

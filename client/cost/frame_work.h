@@ -2,17 +2,18 @@
 #include <span>
 #include <vector>
 
+#include "client/cost/hardware.h"
 #include "client/partition/partitioner.h"
 #include "common/plan/frame_plan.h"
-#include "sim/hardware/hardware.h"
 
-namespace swath::sim {
+namespace swath {
 
 // Pixels that one server draws and another owns, as work.
 struct SwathWork {
     ServerId peer{};
     double send_s = 0;   // what the sender does: reading buffers, or coding in host memory
     double merge_s = 0;  // what the receiver does: writing buffers, or merging in host memory
+    double pixels = 0;   // that are sent: active ones
     double bytes = 0;
 };
 
@@ -36,4 +37,7 @@ struct ServerWork {
 std::vector<ServerWork> frame_work(const FramePlan& plan, std::span<const ProjectedObject> objects,
                                    const Hardware& hardware);
 
-}  // namespace swath::sim
+// Triangles assigned to servers over those of the model (Samanta 2000, section 3): 1 but for sort-first.
+double overlap_factor(const FramePlan& plan, std::span<const Object> model);
+
+}  // namespace swath
