@@ -177,12 +177,10 @@ export class Gantt {
                     const drawn = {left, right: Math.max(right, left + 0.6), top, bottom, span, machine: name, frame};
                     this.#drawn.push(drawn);
                     if (is_wait(span.phase)) {
-                        context.fillStyle = theme('--wait-soft');
-                        fill(context, drawn);
-                        context.fillStyle = waits;
-                    } else {
-                        context.fillStyle = theme(phase_colour(span.phase));
+                        paint_wait(context, drawn, theme, waits);
+                        continue;
                     }
+                    context.fillStyle = theme(phase_colour(span.phase));
                     fill(context, drawn);
                 }
             }
@@ -328,6 +326,17 @@ function extent(machines) {
         begin: spans.reduce((least, {begin}) => Math.min(least, begin), Infinity),
         end: spans.reduce((most, {end}) => Math.max(most, end), -Infinity),
     };
+}
+
+// Thinner than work: with several frames in flight there is a lot of waiting that holds up nobody.
+function paint_wait(context, {left, right, top, bottom}, theme, pattern) {
+    const high = bottom - top;
+    const thin = Math.max(0.5 * high, Math.min(high, 1.5));
+    const strip = {left, right, top: top + (high - thin) / 2, bottom: top + (high + thin) / 2};
+    context.fillStyle = theme('--wait-soft');
+    fill(context, strip);
+    context.fillStyle = pattern;
+    fill(context, strip);
 }
 
 function fill(context, {left, right, top, bottom}) {

@@ -38,7 +38,7 @@ export function show_frames(frames, others) {
     set_text('frame-note', first ? `${first.frame} · ${frames.map(({algorithm}) => algorithm).join(' and ')}` : '');
     set_text('prediction-state', !first ? '' : first.prediction
         ? `: ${frames.map((frame) => frame.prediction ? ms(frame.prediction.frame) : '–').join(' and ')}`
-        : '; not known yet');
+        : ': not known yet');
     if (!first) {
         at('frame-table').tHead?.remove();
         at('frame-table').tBodies[0]?.remove();

@@ -3,7 +3,7 @@
 
 import {compact, plural, times, whole} from './format.js';
 import {area, owner_at} from './geometry.js';
-import {draw_overlays, groups_of} from './overlays.js';
+import {draw_overlays, groups_of, kMostBoxes, kMostWhileMoving} from './overlays.js';
 import {Stream} from './stream.js';
 
 const kSmallest = 16;  // pixels, of a picture that is asked for
@@ -146,6 +146,16 @@ export class Stage {
         if (overlay.height !== pixels[1]) overlay.height = pixels[1];
     }
 
+    // Why boxes that are wanted are not there, or nothing.
+    #why_no_boxes(plan, format) {
+        const {boxes, count, generation} = this.#objects ?? {};
+        if (generation !== plan.generation) return ['boxes are on their way'];
+        if (!boxes || count > kMostBoxes) return [`${plural(count, 'object')}: too many for boxes`];
+        if (count > kMostWhileMoving && format !== 'png') return ['boxes when it rests'];
+        const needs_groups = this.#show.has('groups') || this.#show.has('overlap');
+        return needs_groups && !plan.groups ? ['too many objects for groups'] : [];
+    }
+
     #write_caption(number) {
         const {stream, caption} = this.#cells[number];
         const plan = stream.plan;
@@ -159,12 +169,8 @@ export class Stage {
         if (plan && (this.split || this.#show.has('overlap'))) parts.push(`overlap ${times(plan.overlap ?? 1)}`);
         if (plan && (this.split || this.#show.has('swaths')))
             parts.push(`swaths ${compact(plan.links?.reduce((sum, link) => sum + area(link.rectangles), 0) ?? 0)}`);
-        if (plan && ['groups', 'boxes', 'overlap'].some((layer) => this.#show.has(layer))) {
-            if (this.#objects && !this.#objects.boxes)
-                parts.push(`${plural(this.#objects.count, 'object')}: too many for boxes`);
-            else if (this.#objects?.generation !== plan.generation) parts.push('boxes are on their way');
-            else if (!plan.groups && !(this.#show.size === 1 && this.#show.has('boxes'))) parts.push('too many objects for groups');
-        }
+        if (plan && ['groups', 'boxes', 'overlap'].some((layer) => this.#show.has(layer)))
+            parts.push(...this.#why_no_boxes(plan, stream.drawn.header.format));
         const text = parts.join(' · ');
         if (caption.textContent !== text) caption.textContent = text;
         caption.hidden = text === '';
