@@ -62,6 +62,17 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     remote->needs(remote_display)->excludes(local)->excludes(single);
     remote_display->needs(remote);
     single->excludes(local);
+    std::string view;
+    std::string max_view =
+        fmt::format("{}x{}", options.view_limits.max_width, options.view_limits.max_height);
+    auto* viewer = app.add_option("--view", view,
+                                  "a live run: no path, the page of the display shows and steers it. With\n"
+                                  "--local the page is at this [HOST:]PORT [8080]; 0 takes a free port")
+                       ->expected(0, 1)
+                       ->excludes(single);
+    app.add_option("--view-max-size", max_view, "largest picture that viewers may ask for")
+        ->capture_default_str()
+        ->needs(viewer);
     app.add_option("--algorithm", algorithm, "how to divide a frame: " + algorithm_names())
         ->capture_default_str();
     app.add_option("--renderer", renderer, "osmesa, or egl (surfaceless)")
@@ -79,7 +90,8 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--size", size, "of the picture in pixels")->capture_default_str();
     app.add_option("--background", background, "colour behind the model, RRGGBB")->capture_default_str();
     auto* frame_count = app.add_option("--frames", frames, "how many [50, or all of a camera file]")
-                            ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
+                            ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
+                            ->excludes(viewer);
     app.add_option("--path", options.path,
                    "of the camera: orbit, random (seeded, as in the paper), or a FILE with a camera a line")
         ->capture_default_str();
@@ -93,10 +105,12 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::Range(1, 8));
     add_threads_option(app, options.threads);
-    app.add_option("--out", options.out, "folder for the pictures, frame_0000.png and so on [none are kept]");
+    app.add_option("--out", options.out, "folder for the pictures, frame_0000.png and so on [none are kept]")
+        ->excludes(viewer);
     app.add_option("--format", format, "of the pictures: png (exact) or jpeg")
         ->capture_default_str()
-        ->check(CLI::IsMember({"png", "jpeg"}));
+        ->check(CLI::IsMember({"png", "jpeg"}))
+        ->excludes(viewer);
     app.add_option("--timeline", options.timeline,
                    "what every machine did when: FILE.csv, or FILE.json for ui.perfetto.dev");
     app.add_option("--connect-s", options.connect_patience_s, "how long to try to reach servers and display")
@@ -119,7 +133,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     const auto parsed_cull = parse_cull_algorithm(cull);
     if (!parsed_cull) return refuse({"--cull: " + parsed_cull.error().message});
     options.cull = *parsed_cull;
-    if (renderer == "egl") options.renderer = RendererKind::kEgl;
+    options.renderer = *parse_renderer(renderer);
     if (octree->count() > 0) options.granularity.depth = depth;
     if (frame_count->count() > 0) options.frames = frames;
     options.format = options.out.empty() ? PictureFormat::kNone
@@ -141,6 +155,15 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         const auto address = parse_address(display);
         if (!address) return refuse({"--display: " + address.error().message});
         options.display = *address;
+    }
+    if (viewer->count() > 0) {
+        if (options.display && !view.empty())
+            return refuse({"--view: this display runs already; give the port to its own --view"});
+        options.view = options.display ? "" : view.empty() ? "8080" : view;
+        const auto largest = parse_size("--view-max-size", max_view);
+        if (!largest) return refuse(largest.error());
+        options.view_limits.max_width = largest->width;
+        options.view_limits.max_height = largest->height;
     }
     return options;
 }

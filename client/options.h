@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "client/live/wish.h"
 #include "client/partition/partitioner.h"
 #include "common/cull/cull_algorithm.h"
 #include "common/image/picture.h"
@@ -38,6 +39,9 @@ struct ClientOptions {
     std::string timeline;  // file; empty: none
     double connect_patience_s = 5;
     ProgramOptions program;
+    std::optional<std::string>
+        view;                // [HOST:]PORT of the page that a local display serves, "" elsewhere; a live run
+    WishLimits view_limits;  // its servers are filled in by the run
     WireTiming timing;
 };
 

@@ -37,7 +37,56 @@ Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) 
                        std::to_string(options.timing.silence_limit / std::chrono::milliseconds(1))};
     local.server_arguments = {
         "--threads", options.threads >= 0 ? std::to_string(options.threads) : raster_threads(options.local)};
+    if (options.view) local.display_arguments = {"--view", *options.view};
     return LocalCluster::start(local);
+}
+
+// What a live run starts with: the path's first camera.
+Result<LiveView::Settings> live_settings(const ClientOptions& options, std::size_t servers, const Box& bounds,
+                                         const Camera& home) {
+    LiveView::Settings live;
+    live.bounds = bounds;
+    live.limits = options.view_limits;
+    live.limits.servers = servers;
+    live.seed = options.seed;
+    live.start.camera = numbers_of(home);
+    if (const auto camera = camera_of(live.start.camera); !camera)
+        return fail_in("the model cannot be looked at", camera.error());
+    live.start.width = std::min(options.width, live.limits.max_width);
+    live.start.height = std::min(options.height, live.limits.max_height);
+    live.start.algorithm = options.algorithm;
+    live.start.servers = servers;
+    live.start.setup = {options.granularity.objects, options.renderer, options.cull};
+    return live;
+}
+
+// For a shell.
+std::string quoted(const std::string& word) {
+    if (!word.empty() &&
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                               "_-+=./:,@%") == std::string::npos)
+        return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+// The command that draws what a live run shows, with the camera in a file.
+std::string command_of(const ClientOptions& options, const LiveWish& wish, int octree_depth) {
+    std::string where = fmt::format("--local {}", wish.servers);
+    if (options.display) {
+        std::string servers;
+        for (std::size_t i = 0; i < wish.servers; ++i)
+            servers += (i > 0 ? "," : "") + to_string(options.servers[i]);
+        where = fmt::format("--servers {} --display {}", servers, to_string(*options.display));
+    }
+    return fmt::format(
+        "swath-client {} {} --algorithm {} --renderer {} --cull {} --octree-depth {} --size {}x{} "
+        "--background "
+        "{:02x}{:02x}{:02x} --path view.camera --out view",
+        quoted(options.model), where, name_of(wish.algorithm), name_of(wish.setup.renderer),
+        name_of(wish.setup.cull), octree_depth, wish.width, wish.height, options.background[0],
+        options.background[1], options.background[2]);
 }
 
 Status save_timeline(const std::string& file, const std::vector<FrameTimeline>& frames) {
@@ -53,7 +102,9 @@ Status run_client(const ClientOptions& options) {
     auto mesh = load_model(options.model);
     if (!mesh) return tl::unexpected(mesh.error());
     Buffer blob = options.single ? Buffer() : write_blob(*mesh);
-    const ObjectSet scene = build_objects(std::move(*mesh), options.granularity);
+    const auto shared_scene =
+        std::make_shared<const ObjectSet>(build_objects(std::move(*mesh), options.granularity));
+    const ObjectSet& scene = *shared_scene;
     spdlog::info("{}: {} triangles in {} objects (octree depth {}), {:.2f} s", options.model,
                  scene.mesh.triangle_count(), scene.objects.size(), scene.depth,
                  std::chrono::duration<double>(clock.now() - begin).count());
@@ -65,9 +116,10 @@ Status run_client(const ClientOptions& options) {
     if (!cameras) return tl::unexpected(cameras.error());
 
     const PictureWriter writer(options.out, options.format);
-    Progress progress(cameras->size(), "frames", options.program.quiet, clock);
+    std::optional<Progress> progress;  // a live run has no end to come closer to
+    if (!options.view) progress.emplace(cameras->size(), "frames", options.program.quiet, clock);
     const auto on_picture = [&](FrameNumber frame, const Buffer& encoded) {
-        progress.step();
+        if (progress) progress->step();
         return writer.write(frame, encoded);
     };
 
@@ -99,12 +151,21 @@ Status run_client(const ClientOptions& options) {
         // Servers elsewhere look for the file under the path that it has here.
         job.model =
             is_builtin(options.model) ? options.model : std::filesystem::absolute(options.model).string();
-        job.scene = &scene;
+        job.scene = shared_scene;
         job.blob = std::move(blob);
         job.renderer = options.renderer;
         job.cull = options.cull;
         job.algorithm = options.algorithm;
-        job.cameras = std::move(*cameras);
+        if (options.view) {
+            auto live = live_settings(options, job.servers.size(), scene.bounds, cameras->front());
+            if (!live) return tl::unexpected(live.error());
+            job.live = std::move(*live);
+        } else {
+            job.cameras = std::move(*cameras);
+        }
+        job.command = [&options](const LiveWish& wish, int octree_depth) {
+            return command_of(options, wish, octree_depth);
+        };
         job.width = options.width;
         job.height = options.height;
         job.background = options.background;
@@ -117,9 +178,10 @@ Status run_client(const ClientOptions& options) {
         const std::size_t servers = job.servers.size();
         frames = run_cluster(
             std::move(job), clock,
-            [&] {
+            [&](const std::string& page) {
                 spdlog::info("{} servers and the display are ready after {:.2f} s", servers,
                              std::chrono::duration<double>(clock.now() - begin).count());
+                if (options.view) std::cout << "viewer " << page << std::endl;
             },
             on_picture);
     }

@@ -1,3 +1,5 @@
+#include <iostream>
+
 #include "common/base/allocator.h"
 #include "common/program/program.h"
 #include "display/session/display.h"
@@ -6,6 +8,7 @@ int main(int argc, char** argv) {
     using namespace swath;
     DisplayOptions options;
     std::string listen = "127.0.0.1:4100";
+    std::string view;
     ProgramOptions program;
 
     CLI::App app{
@@ -17,6 +20,12 @@ int main(int argc, char** argv) {
                    "HOST:PORT to listen on; port 0 takes a free one. There is no authentication: listen\n"
                    "beyond loopback only in a network you trust")
         ->capture_default_str();
+    app.add_option(
+           "--view", view,
+           "[HOST:]PORT at which a browser sees the run and steers it, on 127.0.0.1 unless HOST says\n"
+           "otherwise; port 0 takes a free one. Beyond loopback it needs the token in the address that\n"
+           "is printed, and is not encrypted")
+        ->type_name("[HOST:]PORT");
     add_program_options(app, program, options.timing);
     add_lifeline_option(app, program);
     if (const auto code = parse_options(app, argc, argv)) return *code;
@@ -25,12 +34,26 @@ int main(int argc, char** argv) {
     const auto address = parse_address(listen);
     if (!address) return usage_error({"--listen: " + address.error().message});
     options.listen = *address;
+    WebServer::Options web;
+    if (!view.empty()) {
+        const auto at = parse_address(view.find(':') == std::string::npos ? "127.0.0.1:" + view : view);
+        if (!at) return usage_error({"--view: " + at.error().message});
+        web.listen = *at;
+    }
     tune_allocator();
 
     const SteadyClock clock;
     boost::asio::io_context io(1);
+    std::unique_ptr<ViewerHost> viewers;
+    if (!view.empty()) {
+        auto made = ViewerHost::make(web, clock);
+        if (!made) return run_error({"--view: " + made.error().message});
+        viewers = std::move(*made);
+        options.viewers = viewers.get();
+    }
     const auto display = make_display(io, options, clock);
     if (!display) return run_error(display.error());
     announce((*display)->address());
+    if (viewers) std::cout << "viewer " << viewers->url() << std::endl;
     return run_until_stopped(io, program);
 }

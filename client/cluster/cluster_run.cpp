@@ -1,7 +1,12 @@
 #include "client/cluster/cluster_run.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <boost/asio/post.hpp>
+#include <cstring>
+#include <new>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/scene/model_blob.h"
@@ -9,26 +14,39 @@
 #include "common/wire/listener.h"
 
 namespace swath {
+namespace {
+
+constexpr std::size_t kLiveHistory = 240;  // frames whose timelines a live run keeps
+constexpr const char* kChanging = "changing the setup";
+
+}  // namespace
 
 ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock& clock, Handlers handlers)
     : io_(io),
       job_(std::move(job)),
       clock_(clock),
       handlers_(std::move(handlers)),
-      partitioner_(make_partitioner(job_.algorithm, job_.scene->objects)),
-      costs_(job_.scene->objects),
-      model_triangles_(job_.scene->mesh.triangle_count()),
       digest_(digest(job_.blob.bytes())),
-      director_(job_.cameras.size(), job_.frames_in_flight) {
-    for (std::size_t i = 0; i < job_.servers.size(); ++i)
-        peers_.push_back({fmt::format("server {} at {}", i, to_string(job_.servers[i])),
-                          Role::kServer,
-                          {},
-                          false,
-                          false,
-                          false});
-    peers_.push_back(
-        {fmt::format("display at {}", to_string(job_.display)), Role::kDisplay, {}, false, false, false});
+      director_(job_.live ? Director::live(job_.frames_in_flight)
+                          : Director(job_.cameras.size(), job_.frames_in_flight)),
+      broadcast_([this](NoteTopic topic, FrameNumber frame, const std::string& text) {
+          Buffer body(text.size());
+          std::memcpy(body.data(), text.data(), text.size());
+          // A display that does not take it is found out by the next frame.
+          (void)offer(peers_.back(), Note{topic, frame}, std::move(body));
+      }),
+      drawing_{job_.scene->depth, job_.renderer, job_.cull} {
+    if (job_.live) live_.emplace(*job_.live);
+    use(job_.scene);
+    for (std::size_t i = 0; i < job_.servers.size(); ++i) {
+        Peer& peer = peers_.emplace_back();
+        peer.address = to_string(job_.servers[i]);
+        peer.who = fmt::format("server {} at {}", i, peer.address);
+    }
+    Peer& display = peers_.emplace_back();
+    display.role = Role::kDisplay;
+    display.address = to_string(job_.display);
+    display.who = fmt::format("display at {}", display.address);
 }
 
 void ClusterRun::start() {
@@ -38,14 +56,23 @@ void ClusterRun::start() {
 
 void ClusterRun::stop() {
     over_ = true;
+    cutter_.reset();
     for (Peer& peer : peers_)
         if (peer.connection) peer.connection->close();
     handlers_ = {};
 }
 
+void ClusterRun::end() {
+    std::sort(timelines_.begin(), timelines_.end(),
+              [](const auto& a, const auto& b) { return a.frame < b.frame; });
+    finish(
+        std::vector(std::make_move_iterator(timelines_.begin()), std::make_move_iterator(timelines_.end())));
+}
+
 void ClusterRun::finish(Result<std::vector<FrameTimeline>> result) {
     if (over_) return;
     over_ = true;
+    cutter_.reset();
     for (Peer& peer : peers_) {
         if (!peer.connection) continue;
         if (result)
@@ -98,19 +125,17 @@ void ClusterRun::set_up() {
     setup.model = job_.model;
     setup.digest = digest_;
     setup.blob_bytes = job_.blob.size();
-    setup.octree_depth = job_.scene->depth;
-    setup.renderer = job_.renderer;
-    setup.cull = job_.cull;
+    setup.drawing = drawing_;
     for (const Address& address : job_.servers) setup.servers.push_back(to_string(address));
     setup.display = to_string(job_.display);
     setup.frames_in_flight = job_.frames_in_flight;
     const auto servers = static_cast<std::uint32_t>(job_.servers.size());
     for (std::size_t i = 0; i < peers_.size(); ++i) {
         setup.server = server_id(i < servers ? i : 0);
-        const Status status =
-            i < servers
-                ? offer(peers_[i], setup)
-                : offer(peers_[i], DisplaySetup{job_.session, servers, job_.format, job_.frames_in_flight});
+        const Status status = i < servers
+                                  ? offer(peers_[i], setup)
+                                  : offer(peers_[i], DisplaySetup{job_.session, servers, job_.format,
+                                                                  job_.frames_in_flight, live_.has_value()});
         if (!status) return lost(i, status.error().message);
     }
 }
@@ -131,8 +156,9 @@ Status ClusterRun::on_message(std::size_t i, Message&& message, Buffer&& body) {
                                      [](const Peer& p) { return p.role == Role::kDisplay || p.connected; }))
             return {};
         started_ = true;
-        handlers_.on_ready();
-        return run(director_.on_start());
+        handlers_.on_ready(page_);
+        if (const auto status = run(director_.on_start()); !status) return status;
+        return follow_wish();
     }
     if (const auto* report = std::get_if<ServerReport>(&message);
         report != nullptr && peer.role == Role::kServer)
@@ -140,6 +166,11 @@ Status ClusterRun::on_message(std::size_t i, Message&& message, Buffer&& body) {
     if (const auto* report = std::get_if<DisplayReport>(&message);
         report != nullptr && peer.role == Role::kDisplay)
         return on_report(i, *report, body);
+    if (const auto* audience = std::get_if<Audience>(&message);
+        audience != nullptr && peer.role == Role::kDisplay)
+        return on_audience(*audience);
+    if (const auto* wish = std::get_if<Wish>(&message); wish != nullptr && peer.role == Role::kDisplay)
+        return on_wish(*wish, body);
     return fail("{} is not expected from a {}", name(message), name(peer.role));
 }
 
@@ -153,15 +184,28 @@ Status ClusterRun::send_model_part(const Peer& peer, std::uint64_t offset) {
 }
 
 Status ClusterRun::on_ready(Peer& peer, const Ready& ready) {
+    if (change_.under_way() && peer.role == Role::kServer) return on_changed(ready);
     if (peer.role == Role::kServer && ready.objects != job_.scene->objects.size())
         return fail("cut the model into {} objects, this client into {}", ready.objects,
                     job_.scene->objects.size());
     if (peer.ready) return fail("Ready came twice");
     peer.ready = true;
+    if (peer.role == Role::kDisplay) {
+        page_ = ready.description;
+        if (live_ && page_.empty()) return fail("has no page to look at: start it with --view");
+    } else {
+        peer.description = ready.description;
+    }
     if (!std::all_of(peers_.begin(), peers_.end(), [](const Peer& p) { return p.ready; })) return {};
+    SessionFacts facts{
+        job_.model, job_.scene->mesh.triangle_count(), job_.scene->bounds, {}, job_.background};
     for (const Peer& p : peers_)
-        if (p.role == Role::kServer)
+        if (p.role == Role::kServer) {
+            facts.servers.push_back({p.address, p.description});
             if (const auto status = offer(p, Connect{}); !status) return status;
+        }
+    broadcast_.on_session(std::move(facts), live_ ? &*live_ : nullptr,
+                          job_.live ? job_.live->limits : WishLimits{});
     return {};
 }
 
@@ -182,10 +226,11 @@ Status ClusterRun::run(const Director::Actions& actions) {
                     return {};
                 }
                 break;
+            case DirectorAction::Kind::kReconfigure:
+                if (const auto status = change_setup(); !status) return status;
+                break;
             case DirectorAction::Kind::kFinish:
-                std::sort(timelines_.begin(), timelines_.end(),
-                          [](const auto& a, const auto& b) { return a.frame < b.frame; });
-                finish(std::move(timelines_));
+                end();
                 break;
             case DirectorAction::Kind::kAbort:
                 finish(fail("{}", action.reason));
@@ -195,16 +240,35 @@ Status ClusterRun::run(const Director::Actions& actions) {
     return {};
 }
 
+FrameOrder ClusterRun::order_of(FrameNumber number) {
+    if (live_) return live_->next();
+    FrameOrder order;
+    order.camera = job_.cameras[number];
+    order.numbers = numbers_of(order.camera);
+    order.width = job_.width;
+    order.height = job_.height;
+    order.algorithm = job_.algorithm;
+    order.servers = job_.servers.size();
+    return order;
+}
+
+Partitioner& ClusterRun::partitioner(Algorithm algorithm) {
+    auto& made = partitioners_[algorithm];
+    if (!made) made = make_partitioner(algorithm, job_.scene->objects);
+    return *made;
+}
+
 Status ClusterRun::issue(FrameNumber number) {
     std::vector<Span> spans;
     PhaseTimer timer(clock_, spans);
-    const View view = make_view(job_.cameras[number], job_.width, job_.height);
-    const auto projected = project(job_.scene->objects, view, Accounting::kCluster, costs_.costs());
-    const FramePlan plan = partitioner_->partition({number, view, projected, job_.servers.size()});
-    if (const auto wrong = problem(plan, job_.scene->objects.size(), grouping_of(job_.algorithm)))
+    const FrameOrder order = order_of(number);
+    const View view = make_view(order.camera, order.width, order.height);
+    auto projected = project(job_.scene->objects, view, Accounting::kCluster, costs_->costs());
+    FramePlan plan = partitioner(order.algorithm).partition({number, view, projected, order.servers});
+    if (const auto wrong = problem(plan, job_.scene->objects.size(), grouping_of(order.algorithm)))
         throw CheckFailed(fmt::format("frame {}: {}", number, *wrong));
 
-    AssembleFrame assemble{number, job_.width, job_.height, job_.background, {}};
+    AssembleFrame assemble{number, order.width, order.height, job_.background, {}, order.stream};
     std::vector<RenderFrame> tasks(plan.servers.size());
     std::uint64_t drawn = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -219,12 +283,14 @@ Status ClusterRun::issue(FrameNumber number) {
     }
 
     OpenFrame& frame = frames_[number];
-    frame.timeline.frame = number;
-    frame.timeline.overlap_factor = static_cast<double>(drawn) / static_cast<double>(model_triangles_);
-    frame.timeline.machines.resize(1 + peers_.size());
-    frame.timeline.machines[0].machine = "client";
+    FrameTimeline& timeline = frame.finished.timeline;
+    timeline.frame = number;
+    timeline.overlap_factor =
+        static_cast<double>(drawn) / static_cast<double>(job_.scene->mesh.triangle_count());
+    timeline.machines.resize(1 + peers_.size());
+    timeline.machines[0].machine = "client";
     for (std::size_t i = 0; i < peers_.size(); ++i)
-        frame.timeline.machines[1 + i].machine =
+        timeline.machines[1 + i].machine =
             peers_[i].role == Role::kDisplay ? "display" : server_name(server_id(i));
 
     // A server without pixels takes no part in the frame.
@@ -236,18 +302,22 @@ Status ClusterRun::issue(FrameNumber number) {
         groups[server_id(i)] = std::move(tasks[i].group);
     }
     const std::size_t working = groups.size();
-    costs_.on_issued(number, std::move(groups));
+    costs_->on_issued(number, std::move(groups));
+    broadcast_.on_planned(order, plan, timeline.overlap_factor);
     if (const auto status = offer(peers_.back(), assemble); !status)
         return fail_in(peers_.back().who, status.error());
     frame.missing = working + 1;
+    frame.finished.order = order;
+    frame.finished.plan = std::move(plan);
+    frame.finished.projected = std::move(projected);
     timer.end(Phase::kPartition);
-    frame.timeline.machines[0].spans = std::move(spans);
+    timeline.machines[0].spans = std::move(spans);
     director_.on_issued(number, working);
-    return {};
+    return live_ ? run(director_.on_wanted(live_->wants_frame())) : Status{};
 }
 
 Status ClusterRun::on_server_report(std::size_t i, const ServerReport& report) {
-    if (const auto status = costs_.on_report(report.frame, server_id(i), report.visible); !status)
+    if (const auto status = costs_->on_report(report.frame, server_id(i), report.visible); !status)
         return status;
     return on_report(i, report, {});
 }
@@ -257,7 +327,7 @@ Status ClusterRun::on_report(std::size_t i, const Report& report, const Buffer& 
     if (found == frames_.end()) return fail("a report for frame {}, which is not open", report.frame);
     OpenFrame& frame = found->second;
     const Peer& peer = peers_[i];
-    MachineTimeline& machine = frame.timeline.machines[1 + i];
+    MachineTimeline& machine = frame.finished.timeline.machines[1 + i];
     if (report.spans.empty() || !machine.spans.empty())
         return fail("a report for frame {} that is empty or came twice", report.frame);
     const Nanoseconds offset = peer.connection->clock_offset();
@@ -277,10 +347,133 @@ Status ClusterRun::on_report(std::size_t i, const Report& report, const Buffer& 
         }
     }
     if (--frame.missing == 0) {
-        timelines_.push_back(std::move(frame.timeline));
+        broadcast_.on_over(frame.finished, clock_.now());
+        timelines_.push_back(std::move(frame.finished.timeline));
         frames_.erase(found);
+        if (live_ && timelines_.size() > kLiveHistory) timelines_.pop_front();
     }
     return run(*actions);
+}
+
+// --- a live run
+
+Status ClusterRun::on_audience(const Audience& audience) {
+    broadcast_.on_viewers(audience.viewers);
+    if (!live_) return {};
+    live_->on_viewers(audience.viewers);
+    tell_state();
+    return follow_wish();
+}
+
+Status ClusterRun::on_wish(const Wish& wish, const Buffer& body) {
+    if (!live_) return fail("a Wish, and this run takes none");
+    if (body.size() > kMaxWishBytes)
+        return fail("a Wish of {} bytes, the limit is {}", body.size(), kMaxWishBytes);
+    const std::string_view text(reinterpret_cast<const char*>(body.data()), body.size());
+    // What a page says ends nothing: the display has checked that it is a wish, and the next one may be
+    // better.
+    if (const auto status = live_->on_wish(text, wish.viewer); !status)
+        spdlog::warn("viewer {}: {}", wish.viewer, status.error().message);
+    if (live_->take_trace()) broadcast_.on_trace({timelines_.begin(), timelines_.end()});
+    tell_state(change_.under_way() || next_scene_ ? kChanging : "");
+    return follow_wish();
+}
+
+Status ClusterRun::follow_wish() {
+    if (!live_) return {};
+    if (live_->wanted_setup())
+        if (const auto status = run(director_.on_reconfigure()); !status) return status;
+    return run(director_.on_wanted(live_->wants_frame()));
+}
+
+void ClusterRun::tell_state(const std::string& busy) {
+    broadcast_.on_state(*live_, busy, job_.command(live_->wish(), job_.scene->depth));
+}
+
+// No frame is open. The client cuts the model first: the servers are told a depth.
+Status ClusterRun::change_setup() {
+    const auto wanted = live_->wanted_setup();
+    if (!wanted) {
+        if (const auto status = run(director_.on_reconfigured()); !status) return status;
+        return follow_wish();
+    }
+    next_setup_ = *wanted;
+    tell_state(kChanging);
+    if (wanted->objects == live_->setup().objects) return on_cut(job_.scene);
+    next_scene_ = job_.scene;
+    if (!cutter_) cutter_ = std::make_unique<WorkerThread>();
+    // The task holds nothing alive: the run's end waits for it.
+    cutter_->post([this, weak = weak_from_this(), scene = job_.scene, objects = wanted->objects] {
+        std::shared_ptr<const ObjectSet> cut;  // null: no memory
+        try {
+            cut = std::make_shared<const ObjectSet>(build_objects(scene->mesh, {std::nullopt, objects}));
+        } catch (const std::bad_alloc&) {
+        }
+        boost::asio::post(io_, [weak, cut] {
+            const auto self = weak.lock();
+            if (!self || self->over_) return;
+            if (const auto status = self->on_cut(cut); !status) self->finish(tl::unexpected(status.error()));
+        });
+    });
+    return {};
+}
+
+Status ClusterRun::on_cut(std::shared_ptr<const ObjectSet> scene) {
+    if (!scene) return end_change("not enough memory to cut the model anew");
+    next_scene_ = std::move(scene);
+    const Drawing next{next_scene_->depth, next_setup_.renderer, next_setup_.cull};
+    if (next == drawing_) return end_change({});
+    change_.begin(job_.servers.size());
+    return ask_servers(next);
+}
+
+Status ClusterRun::ask_servers(const Drawing& drawing) {
+    for (const Peer& peer : peers_)
+        if (peer.role == Role::kServer)
+            if (const auto status = offer(peer, Reconfigure{drawing}); !status)
+                return fail_in(peer.who, status.error());
+    return {};
+}
+
+Status ClusterRun::on_changed(const Ready& ready) {
+    const ObjectSet& scene = change_.going_back() ? *job_.scene : *next_scene_;
+    if (ready.refused.empty() && ready.objects != scene.objects.size())
+        return fail("cut the model into {} objects, this client into {}", ready.objects,
+                    scene.objects.size());
+    switch (change_.on_answer(ready.refused)) {
+        case SetupChange::Next::kWait:
+            return {};
+        case SetupChange::Next::kDone:
+            return end_change({});
+        case SetupChange::Next::kGoBack:
+            return ask_servers(drawing_);
+        case SetupChange::Next::kUndone:
+            return end_change(change_.why());
+        case SetupChange::Next::kStuck:
+            return fail("cannot go back to what it had: {}", ready.refused);
+    }
+    return {};
+}
+
+Status ClusterRun::end_change(const std::string& refused) {
+    auto scene = std::exchange(next_scene_, nullptr);
+    if (refused.empty()) {
+        drawing_ = {scene->depth, next_setup_.renderer, next_setup_.cull};
+        if (scene != job_.scene) use(std::move(scene));
+        live_->on_setup(next_setup_);
+    } else {
+        live_->on_setup_refused(refused);
+    }
+    tell_state();
+    if (const auto status = run(director_.on_reconfigured()); !status) return status;
+    return follow_wish();
+}
+
+void ClusterRun::use(std::shared_ptr<const ObjectSet> scene) {
+    job_.scene = std::move(scene);
+    partitioners_.clear();
+    costs_.emplace(job_.scene->objects);
+    broadcast_.on_scene(job_.scene);
 }
 
 }  // namespace swath

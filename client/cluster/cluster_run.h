@@ -1,18 +1,24 @@
 #pragma once
 #include <boost/asio/io_context.hpp>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "client/director/director.h"
+#include "client/live/broadcast.h"
+#include "client/live/live_view.h"
+#include "client/live/setup_change.h"
 #include "client/partition/object_costs.h"
 #include "client/partition/partitioner.h"
 #include "common/base/buffer.h"
 #include "common/base/clock.h"
 #include "common/base/result.h"
+#include "common/base/worker_thread.h"
 #include "common/scene/model_blob.h"
 #include "common/scene/objects.h"
 #include "common/timeline/timeline.h"
@@ -26,12 +32,19 @@ struct ClusterJob {
     std::vector<Address> servers;
     Address display;
     std::string model;  // as the user named it
-    const ObjectSet* scene = nullptr;
+    std::shared_ptr<const ObjectSet> scene;
     Buffer blob;  // the model for servers that lack it
     RendererKind renderer = RendererKind::kOsmesa;
     CullAlgorithm cull = CullAlgorithm::kWide;
     Algorithm algorithm = Algorithm::kHybrid;
-    std::vector<Camera> cameras;  // a frame each
+    std::vector<Camera> cameras;  // a frame each; none in a live run
+    // A live run: viewers say what is drawn, until somebody ends it. Renderer, cull, algorithm and size are
+    // then its start's.
+    std::optional<LiveView::Settings> live;
+    // The command line that draws a view, for people who look.
+    std::function<std::string(const LiveWish&, int octree_depth)> command = [](const auto&, int) {
+        return std::string();
+    };
     int width = 1280;
     int height = 960;
     Rgb background{};
@@ -43,11 +56,13 @@ struct ClusterJob {
 };
 
 // Drives servers and a display through a job: connects, sets up, partitions frame by frame, and gathers what
-// every machine did. It does what the Director decides. Single-threaded, on the io_context.
+// every machine did. It does what the Director decides, and in a live run draws what LiveView says. On the
+// io_context's thread, but for cutting a model anew.
 class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
   public:
     struct Handlers {
-        std::function<void()> on_ready;                                        // every machine is set up
+        // Every machine is set up. The address of the display's page, if it has one.
+        std::function<void(const std::string& page)> on_ready;
         std::function<Status(FrameNumber, const Buffer& picture)> on_picture;  // encoded; empty if no format
         std::function<void(Result<std::vector<FrameTimeline>>)> on_done;       // once, last
     };
@@ -56,10 +71,14 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     void start();
     // Ends it without on_done.
     void stop();
+    // Ends a live run well.
+    void end();
 
   private:
     struct Peer {
         std::string who;  // "server 2 at 127.0.0.1:4002", for people
+        std::string address;
+        std::string description;  // of a server's renderer
         Role role = Role::kServer;
         std::shared_ptr<Connection> connection;
         bool greeted = false;
@@ -67,7 +86,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
         bool connected = false;
     };
     struct OpenFrame {
-        FrameTimeline timeline;
+        FinishedFrame finished;   // as far as it is known
         std::size_t missing = 0;  // reports
     };
 
@@ -76,10 +95,23 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Status on_message(std::size_t peer, Message&& message, Buffer&& body);
     Status send_model_part(const Peer& peer, std::uint64_t offset);
     Status on_ready(Peer& peer, const Ready& ready);
+    Status on_audience(const Audience& audience);
+    Status on_wish(const Wish& wish, const Buffer& body);
     Status on_server_report(std::size_t peer, const ServerReport& report);
     Status on_report(std::size_t peer, const Report& report, const Buffer& body);
     Status run(const Director::Actions& actions);
+    // What the wish asks for, as far as it can be begun now.
+    Status follow_wish();
+    FrameOrder order_of(FrameNumber frame);
     Status issue(FrameNumber frame);
+    Status change_setup();
+    Status on_cut(std::shared_ptr<const ObjectSet> scene);
+    Status ask_servers(const Drawing& drawing);
+    Status on_changed(const Ready& ready);
+    Status end_change(const std::string& refused);
+    void use(std::shared_ptr<const ObjectSet> scene);
+    Partitioner& partitioner(Algorithm algorithm);
+    void tell_state(const std::string& busy = {});
     Status offer(const Peer& peer, const Message& message, Buffer body = {});
     void lost(std::size_t peer, const std::string& why);
     void finish(Result<std::vector<FrameTimeline>> result);
@@ -88,16 +120,26 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     ClusterJob job_;
     const Clock& clock_;
     Handlers handlers_;
-    std::vector<Peer> peers_;  // the servers, then the display
-    std::unique_ptr<Partitioner> partitioner_;
-    ObjectCosts costs_;
-    std::size_t model_triangles_ = 0;
+    std::vector<Peer> peers_;                                         // the servers, then the display
+    std::map<Algorithm, std::unique_ptr<Partitioner>> partitioners_;  // of job_.scene, made when first needed
+    std::optional<ObjectCosts> costs_;                                // of job_.scene
     Digest digest_;  // made before the network runs: a large model takes a while
     Director director_;
     std::map<FrameNumber, OpenFrame> frames_;
-    std::vector<FrameTimeline> timelines_;
+    std::deque<FrameTimeline> timelines_;
+    std::optional<LiveView> live_;
+    Broadcast broadcast_;
+    std::string page_;  // where the display serves it
+
+    // A change of setup, from kReconfigure on.
+    Drawing drawing_;  // in effect
+    LiveSetup next_setup_;
+    std::shared_ptr<const ObjectSet> next_scene_;
+    SetupChange change_;
+
     bool started_ = false;
     bool over_ = false;
+    std::unique_ptr<WorkerThread> cutter_;  // null until a model is cut anew
 };
 
 }  // namespace swath

@@ -6,11 +6,12 @@
 namespace swath {
 
 Result<std::vector<FrameTimeline>> run_cluster(ClusterJob job, const Clock& clock,
-                                               std::function<void()> on_ready,
+                                               std::function<void(const std::string& page)> on_ready,
                                                std::function<Status(FrameNumber, const Buffer&)> on_picture) {
     boost::asio::io_context io(1);
     Result<std::vector<FrameTimeline>> result = fail("the run did not end");
     bool over = false;
+    const bool live = job.live.has_value();
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
     const auto run =
         std::make_shared<ClusterRun>(io, std::move(job), clock,
@@ -22,6 +23,7 @@ Result<std::vector<FrameTimeline>> run_cluster(ClusterJob job, const Clock& cloc
                                                           }});
     signals.async_wait([&](const boost::system::error_code& error, int) {
         if (error) return;
+        if (live) return run->end();
         run->stop();
         result = fail("interrupted");
         over = true;

@@ -10,7 +10,25 @@ Director::Open* Director::find(FrameNumber frame) {
     return found == open_.end() ? nullptr : &*found;
 }
 
-Director::Actions Director::on_start() { return advance(); }
+Director::Actions Director::on_start() {
+    started_ = true;
+    return advance();
+}
+
+Director::Actions Director::on_wanted(bool wanted) {
+    wanted_ = wanted;
+    return advance();
+}
+
+Director::Actions Director::on_reconfigure() {
+    if (change_ == Change::kNone) change_ = Change::kAwaited;
+    return advance();
+}
+
+Director::Actions Director::on_reconfigured() {
+    change_ = Change::kNone;
+    return advance();
+}
 
 void Director::on_issued(FrameNumber frame, std::size_t servers) {
     if (Open* open = find(frame)) open->reports_missing = servers;
@@ -40,17 +58,27 @@ Director::Actions Director::on_lost(const std::string& who, const std::string& w
     return {{DirectorAction::Kind::kAbort, 0, who + ": " + why}};
 }
 
+bool Director::may_begin() const {
+    return change_ == Change::kNone && open_.size() < in_flight_ && (live_ ? wanted_ : next_ < frames_);
+}
+
 Director::Actions Director::advance() {
+    if (over_ || !started_) return {};
     // A frame is over when it is displayed and every server has reported: only then do all programs forget
     // it.
     std::erase_if(open_, [](const Open& o) { return o.displayed && o.reports_missing == 0; });
     Actions actions;
-    while (next_ < frames_ && open_.size() < in_flight_) {
+    while (may_begin()) {
+        wanted_ = false;
         open_.push_back({next_, 0, false});
         actions.push_back({DirectorAction::Kind::kIssue, next_, {}});
         ++next_;
     }
-    if (next_ == frames_ && open_.empty()) {
+    if (change_ == Change::kAwaited && open_.empty()) {
+        change_ = Change::kUnderWay;
+        actions.push_back({DirectorAction::Kind::kReconfigure, 0, {}});
+    }
+    if (!live_ && next_ == frames_ && open_.empty()) {
         over_ = true;
         actions.push_back({DirectorAction::Kind::kFinish, 0, {}});
     }

@@ -12,9 +12,10 @@ namespace swath {
 // What the Director wants done.
 struct DirectorAction {
     enum class Kind {
-        kIssue,   // partition `frame` and send its tasks out
-        kFinish,  // every frame is complete and accounted for
-        kAbort,   // the run cannot go on: `reason`
+        kIssue,        // partition `frame` and send its tasks out
+        kReconfigure,  // no frame is open: change what frames depend on, then say on_reconfigured
+        kFinish,       // every frame is complete and accounted for
+        kAbort,        // the run cannot go on: `reason`
     };
     Kind kind{};
     FrameNumber frame = 0;
@@ -29,6 +30,9 @@ class Director {
   public:
     // frames in all, and at most this many begun and not complete at a time (at least 1).
     Director(std::size_t frames, std::size_t in_flight) : frames_(frames), in_flight_(in_flight) {}
+    // A run without end: a frame is begun whenever one is wanted and may be, and what is wanted is not
+    // queued.
+    static Director live(std::size_t in_flight) { return Director(in_flight); }
 
     using Actions = std::vector<DirectorAction>;
 
@@ -39,6 +43,11 @@ class Director {
     Result<Actions> on_server_report(FrameNumber frame);
     Result<Actions> on_display_report(FrameNumber frame);
     Actions on_lost(const std::string& who, const std::string& why);
+    // Of a live run: whether there is something to draw, from now until a frame has been begun.
+    Actions on_wanted(bool wanted);
+    // Begins no frame until those in flight are over and kReconfigure has been done.
+    Actions on_reconfigure();
+    Actions on_reconfigured();
 
     std::size_t complete() const { return complete_; }
 
@@ -48,14 +57,20 @@ class Director {
         std::size_t reports_missing = 0;
         bool displayed = false;
     };
+    explicit Director(std::size_t in_flight) : in_flight_(in_flight), live_(true) {}
     Open* find(FrameNumber frame);
+    bool may_begin() const;
     Actions advance();
 
-    std::size_t frames_;
+    std::size_t frames_ = 0;
     std::size_t in_flight_;
     FrameNumber next_ = 0;
     std::size_t complete_ = 0;  // frames whose picture is whole
     std::vector<Open> open_;
+    bool live_ = false;
+    bool started_ = false;
+    bool wanted_ = false;
+    enum class Change { kNone, kAwaited, kUnderWay } change_ = Change::kNone;
     bool over_ = false;
 };
 

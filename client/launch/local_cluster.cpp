@@ -49,9 +49,8 @@ Result<std::unique_ptr<LocalCluster>> LocalCluster::start(const Options& options
     // All are started before any is waited for.
     for (std::size_t i = 0; i <= options.servers; ++i) {
         std::vector<std::string> arguments = options.arguments;
-        if (i > 0)
-            arguments.insert(arguments.end(), options.server_arguments.begin(),
-                             options.server_arguments.end());
+        const auto& own = i > 0 ? options.server_arguments : options.display_arguments;
+        arguments.insert(arguments.end(), own.begin(), own.end());
         auto child = spawn(options.programs / (i == 0 ? "swath-display" : "swath-server"), arguments);
         if (!child) return tl::unexpected(child.error());
         cluster->children_.push_back(std::move(*child));

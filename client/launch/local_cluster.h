@@ -18,6 +18,7 @@ class LocalCluster {
         std::size_t servers = 1;
         std::vector<std::string> arguments;  // for every program
         std::vector<std::string> server_arguments;
+        std::vector<std::string> display_arguments;
     };
     // Starts all and waits until each has said where it listens. Errors name the program and what it did.
     static Result<std::unique_ptr<LocalCluster>> start(const Options& options);

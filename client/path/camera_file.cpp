@@ -1,6 +1,7 @@
 #include "client/path/camera_file.h"
 
-#include <array>
+#include <fmt/ranges.h>
+
 #include <charconv>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -11,7 +12,7 @@
 namespace swath {
 namespace {
 
-constexpr std::size_t kNumbers = 10;
+constexpr std::size_t kNumbers = std::tuple_size_v<CameraNumbers>;
 // Squares of lengths must stay within single precision.
 constexpr float kMaxCoordinate = 1e18f;
 constexpr std::string_view kBlank = " \t\r";
@@ -25,7 +26,7 @@ std::string_view next_word(std::string_view& line) {
 }
 
 Result<Camera> parse_camera(std::string_view line) {
-    std::array<float, kNumbers> numbers{};
+    CameraNumbers numbers{};
     std::size_t count = 0;
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++count) {
         if (count >= kNumbers) continue;
@@ -40,7 +41,15 @@ Result<Camera> parse_camera(std::string_view line) {
     }
     if (count != kNumbers)
         return fail("expected {} numbers (eye, target, up, fov_degrees), found {}", kNumbers, count);
+    return camera_of(numbers);
+}
 
+}  // namespace
+
+Result<Camera> camera_of(const CameraNumbers& numbers) {
+    for (const float number : numbers)
+        if (!(std::abs(number) <= kMaxCoordinate))
+            return fail("{} is not within {:g}", number, kMaxCoordinate);
     Camera camera;
     camera.eye = {numbers[0], numbers[1], numbers[2]};
     camera.target = {numbers[3], numbers[4], numbers[5]};
@@ -59,7 +68,12 @@ Result<Camera> parse_camera(std::string_view line) {
     return camera;
 }
 
-}  // namespace
+CameraNumbers numbers_of(const Camera& camera) {
+    return {camera.eye.x,    camera.eye.y, camera.eye.z, camera.target.x, camera.target.y,
+            camera.target.z, camera.up.x,  camera.up.y,  camera.up.z,     glm::degrees(camera.fov_y)};
+}
+
+std::string to_line(const CameraNumbers& numbers) { return fmt::format("{}", fmt::join(numbers, " ")); }
 
 Result<std::vector<Camera>> parse_cameras(std::string_view text, std::string_view name) {
     std::vector<Camera> cameras;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,8 @@ enum class CullAlgorithm : std::uint8_t {
 };
 inline constexpr std::size_t kCullAlgorithmCount = 4;
 
+// The one list, in the order in which they are named everywhere.
+std::span<const CullAlgorithm> all_cull_algorithms();
 // "wide", "a2ssb", "adsb", "none".
 std::string_view name_of(CullAlgorithm algorithm);
 std::string cull_algorithm_names();  // with commas between

@@ -41,6 +41,8 @@ std::string_view name_of(CullAlgorithm algorithm) {
     return {};
 }
 
+std::span<const CullAlgorithm> all_cull_algorithms() { return kAlgorithms; }
+
 std::string cull_algorithm_names() {
     std::string names;
     for (const CullAlgorithm algorithm : kAlgorithms) {

@@ -41,6 +41,14 @@ void put_exchanges(const std::vector<Exchange>& exchanges,
     }
 }
 
+// A ServerSetup's or a Reconfigure's.
+template <class M>
+void put_drawing(const Drawing& drawing, M& out) {
+    out.set_octree_depth(static_cast<std::uint32_t>(drawing.octree_depth));
+    out.set_renderer(static_cast<std::uint32_t>(drawing.renderer));
+    out.set_cull(static_cast<std::uint32_t>(drawing.cull) + 1);
+}
+
 void put_report(const Report& m, pb::Report& out) {
     out.set_frame(m.frame);
     for (const Span& s : m.spans) {
@@ -84,9 +92,7 @@ struct Encoder {
         out.set_model(m.model);
         out.set_digest(m.digest.data(), m.digest.size());
         out.set_blob_bytes(m.blob_bytes);
-        out.set_octree_depth(static_cast<std::uint32_t>(m.octree_depth));
-        out.set_renderer(static_cast<std::uint32_t>(m.renderer));
-        out.set_cull(static_cast<std::uint32_t>(m.cull) + 1);
+        put_drawing(m.drawing, out);
         for (const std::string& s : m.servers) out.add_servers(s);
         out.set_display(m.display);
         out.set_frames_in_flight(m.frames_in_flight);
@@ -99,12 +105,7 @@ struct Encoder {
         out.set_frames_in_flight(m.frames_in_flight);
         out.set_live(m.live);
     }
-    void operator()(const Reconfigure& m) const {
-        pb::Reconfigure& out = *head.mutable_reconfigure();
-        out.set_octree_depth(static_cast<std::uint32_t>(m.octree_depth));
-        out.set_renderer(static_cast<std::uint32_t>(m.renderer));
-        out.set_cull(static_cast<std::uint32_t>(m.cull) + 1);
-    }
+    void operator()(const Reconfigure& m) const { put_drawing(m.drawing, *head.mutable_reconfigure()); }
     void operator()(const NeedModel& m) const { head.mutable_need_model()->set_offset(m.offset); }
     void operator()(const ModelPart& m) const { head.mutable_model_part()->set_offset(m.offset); }
     void operator()(const Ready& m) const {
@@ -281,15 +282,14 @@ Result<Message> get_hello(const pb::Hello& in) {
                  in.max_body_bytes()};
 }
 
-// What a ServerSetup and a Reconfigure say of cutting, drawing and culling.
 template <class M>
-Result<Reconfigure> get_drawing(const M& in) {
+Result<Drawing> get_drawing(const M& in) {
     if (in.octree_depth() > static_cast<std::uint32_t>(kMaxOctreeDepth))
         return fail("octree_depth: {}, the limit is {}", in.octree_depth(), kMaxOctreeDepth);
     if (in.renderer() < 1 || in.renderer() > 2) return fail("renderer: {} is none", in.renderer());
     if (in.cull() < 1 || in.cull() > kCullAlgorithmCount) return fail("cull: {} is none", in.cull());
-    return Reconfigure{static_cast<int>(in.octree_depth()), static_cast<RendererKind>(in.renderer()),
-                       static_cast<CullAlgorithm>(in.cull() - 1)};
+    return Drawing{static_cast<int>(in.octree_depth()), static_cast<RendererKind>(in.renderer()),
+                   static_cast<CullAlgorithm>(in.cull() - 1)};
 }
 
 Result<Message> get_server_setup(const pb::ServerSetup& in) {
@@ -306,9 +306,7 @@ Result<Message> get_server_setup(const pb::ServerSetup& in) {
     m.blob_bytes = in.blob_bytes();
     const auto drawing = get_drawing(in);
     if (!drawing) return tl::unexpected(drawing.error());
-    m.octree_depth = drawing->octree_depth;
-    m.renderer = drawing->renderer;
-    m.cull = drawing->cull;
+    m.drawing = *drawing;
     if (in.servers_size() < 1 || static_cast<std::size_t>(in.servers_size()) > kMaxServers)
         return fail("servers: {}, the limits are 1 and {}", in.servers_size(), kMaxServers);
     for (const std::string& s : in.servers()) {
@@ -469,7 +467,7 @@ Result<Message> get_message(const pb::Head& head) {
             return Bye{};
         case pb::Head::kReconfigure: {
             const auto drawing = get_drawing(head.reconfigure());
-            return drawing ? Result<Message>(*drawing) : tl::unexpected(drawing.error());
+            return drawing ? Result<Message>(Reconfigure{*drawing}) : tl::unexpected(drawing.error());
         }
         case pb::Head::kAudience:
             return Audience{head.audience().viewers()};

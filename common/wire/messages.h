@@ -52,6 +52,14 @@ struct Pong {
     bool operator==(const Pong&) const = default;
 };
 
+// How a server cuts the model, draws and culls.
+struct Drawing {
+    int octree_depth = 0;
+    RendererKind renderer = RendererKind::kOsmesa;
+    CullAlgorithm cull = CullAlgorithm::kWide;
+    bool operator==(const Drawing&) const = default;
+};
+
 // Client to server: the session. The server loads the model (its own file, its cache, or NeedModel) and says
 // Ready.
 struct ServerSetup {
@@ -60,9 +68,7 @@ struct ServerSetup {
     std::string model;  // as the user named it
     Digest digest{};    // of the model's blob
     std::uint64_t blob_bytes = 0;
-    int octree_depth = 0;
-    RendererKind renderer = RendererKind::kOsmesa;
-    CullAlgorithm cull = CullAlgorithm::kWide;
+    Drawing drawing;
     std::vector<std::string> servers;  // "host:port" by ServerId
     std::string display;
     std::uint32_t frames_in_flight = 2;
@@ -80,9 +86,7 @@ struct DisplaySetup {
 // Client to server, while no frame is open: cut, draw and cull like this from now on. Ready answers; a server
 // that cannot has changed nothing and says why in its `refused`.
 struct Reconfigure {
-    int octree_depth = 0;
-    RendererKind renderer = RendererKind::kOsmesa;
-    CullAlgorithm cull = CullAlgorithm::kWide;
+    Drawing drawing;
     bool operator==(const Reconfigure&) const = default;
 };
 // Server to client: send the model's blob from `offset`. Client to server: a part of it, as the body.
@@ -100,8 +104,8 @@ struct Ready {
     std::uint64_t objects = 0;
     std::uint64_t triangles = 0;
     std::string
-        description;      // a server's: of the renderer, for people; a display's: address of its page, if any
-    std::string refused;  // why a Reconfigure cannot be done; else empty
+        description;  // a server's: of the renderer, for people; a display's: address of its page, if any
+    std::string refused{};  // why a Reconfigure cannot be done; else empty
     bool operator==(const Ready&) const = default;
 };
 // Client to server, when all are ready: connect to the display and to the servers with smaller ids. Connected

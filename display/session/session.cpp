@@ -12,11 +12,17 @@
 namespace swath {
 namespace asio = boost::asio;
 
-DisplaySession::DisplaySession(asio::io_context& io, const Clock& clock, std::shared_ptr<Connection> client)
-    : io_(io), clock_(clock), client_(std::move(client)), encoder_(std::make_unique<WorkerThread>()) {}
+DisplaySession::DisplaySession(asio::io_context& io, const Clock& clock, ViewerHost* viewers,
+                               std::shared_ptr<Connection> client)
+    : io_(io),
+      clock_(clock),
+      viewers_(viewers),
+      client_(std::move(client)),
+      encoder_(std::make_unique<WorkerThread>()) {}
 
 void DisplaySession::stop() {
     stopped_ = true;
+    if (viewers_ != nullptr && assembly_) viewers_->end();
     client_->finish();
     for (const auto& server : servers_)
         if (server) server->finish();
@@ -52,23 +58,49 @@ Status DisplaySession::on_peer(const std::shared_ptr<Connection>& connection, co
 
 Status DisplaySession::on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) {
     if (stopped_) return {};
-    if (from == client_) return from_client(message);
+    if (from == client_) return from_client(message, std::move(body));
     for (std::size_t i = 0; i < servers_.size(); ++i)
         if (servers_[i] == from) return from_server(server_id(i), message, std::move(body));
     return fail("{} is not expected here", name(message));
 }
 
-Status DisplaySession::from_client(const Message& message) {
-    if (const auto* setup = std::get_if<DisplaySetup>(&message)) {
-        if (assembly_) return fail("DisplaySetup came twice");
-        setup_ = *setup;
-        servers_.resize(setup->servers);
-        assembly_ = std::make_unique<Assembly>(setup->frames_in_flight);
-        const auto sent = client_->offer(Ready{});
-        return sent ? Status{} : tl::unexpected(sent.error());
-    }
+Status DisplaySession::from_client(const Message& message, Buffer&& body) {
+    if (const auto* setup = std::get_if<DisplaySetup>(&message)) return on_setup(*setup);
     if (const auto* task = std::get_if<AssembleFrame>(&message)) return on_assemble(*task);
+    if (const auto* note = std::get_if<Note>(&message)) {
+        if (!assembly_) return fail("Note before DisplaySetup");
+        return viewers_ == nullptr ? Status{} : viewers_->note(note->topic, note->frame, std::move(body));
+    }
     return fail("{} is not expected from a client", name(message));
+}
+
+Status DisplaySession::on_setup(const DisplaySetup& setup) {
+    if (assembly_) return fail("DisplaySetup came twice");
+    setup_ = setup;
+    servers_.resize(setup.servers);
+    assembly_ = std::make_unique<Assembly>(setup.frames_in_flight);
+    Ready ready;
+    if (viewers_ != nullptr) ready.description = viewers_->url();
+    tell(ready);
+    if (viewers_ != nullptr) tell(Audience{begin_viewing()});
+    return {};
+}
+
+// The number of those who look.
+std::uint32_t DisplaySession::begin_viewing() {
+    const std::weak_ptr<DisplaySession> weak = weak_from_this();
+    ViewerHost::Callbacks callbacks;
+    callbacks.on_audience = [weak](std::uint32_t viewers) {
+        if (const auto self = weak.lock(); self && !self->stopped_) self->tell(Audience{viewers});
+    };
+    callbacks.on_wish = [weak](ViewerId viewer, const std::string& wish) {
+        const auto self = weak.lock();
+        if (!self || self->stopped_) return;
+        Buffer body;
+        body.append(wish.data(), wish.size());
+        self->tell(Wish{viewer}, std::move(body));
+    };
+    return viewers_->begin(setup_.live, io_.get_executor(), std::move(callbacks));
 }
 
 Status DisplaySession::on_assemble(const AssembleFrame& task) {
@@ -85,12 +117,10 @@ Status DisplaySession::on_assemble(const AssembleFrame& task) {
     OpenFrame& frame = frames_[task.frame];
     frame.task = task;
     frame.report.frame = task.frame;
-    if (!pool_.empty()) {
-        frame.picture = std::move(pool_.back());
-        pool_.pop_back();
-    }
+    frame.picture = pool_.take();
+    if (viewers_ != nullptr) viewers_->announce(task.frame);
     PhaseTimer timer(clock_, frame.report.spans);
-    fill(frame.picture, task.width, task.height, task.background);
+    fill(*frame.picture, task.width, task.height, task.background);
     timer.end(Phase::kAssemble);
 
     return run(*actions);
@@ -129,7 +159,7 @@ Status DisplaySession::merge(OpenFrame& frame, ServerId from) {
         if (e.server == from) region = &e.region;
     CHECK((region != nullptr) == true);
     const auto status =
-        assemble_tile(tile.mapped().body.bytes(), tile.mapped().sizes, *region, frame.picture);
+        assemble_tile(tile.mapped().body.bytes(), tile.mapped().sizes, *region, *frame.picture);
     if (!status) return fail("garbled tile from server {}: {}", index(from), status.error().message);
     timer.end(Phase::kAssemble);
     return {};
@@ -138,30 +168,30 @@ Status DisplaySession::merge(OpenFrame& frame, ServerId from) {
 void DisplaySession::complete(FrameNumber number) {
     auto frame = std::make_shared<OpenFrame>(std::move(frames_.at(number)));
     frames_.erase(number);
+    if (viewers_ != nullptr) viewers_->picture(number, frame->task.stream, frame->picture);
     if (setup_.format == PictureFormat::kNone) {
-        pool_.push_back(std::move(frame->picture));
-        report(std::move(frame->report), {});
+        tell(frame->report);
         return;
     }
     encoder_->post([self = shared_from_this(), frame] {
         PhaseTimer timer(self->clock_, frame->report.spans);
         auto encoded = std::make_shared<Result<Buffer>>(fail("not enough memory to encode a picture"));
         try {
-            *encoded = encode(frame->picture, self->setup_.format);
+            *encoded = encode(*frame->picture, self->setup_.format);
         } catch (const std::bad_alloc&) {  // the error stays
         }
         timer.end(Phase::kEncode);
         asio::post(self->io_, [self, frame, encoded] {
             if (self->stopped_) return;
             if (!*encoded) return self->give_up(encoded->error());
-            self->pool_.push_back(std::move(frame->picture));
-            self->report(std::move(frame->report), std::move(**encoded));
+            self->tell(frame->report, std::move(**encoded));
         });
     });
 }
 
-void DisplaySession::report(DisplayReport&& report, Buffer encoded) {
-    if (const auto sent = client_->offer(report, std::move(encoded)); !sent) give_up(sent.error());
+// A client that takes too little is given up.
+void DisplaySession::tell(const Message& message, Buffer body) {
+    if (const auto sent = client_->offer(message, std::move(body)); !sent) give_up(sent.error());
 }
 
 }  // namespace swath

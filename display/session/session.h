@@ -8,14 +8,19 @@
 #include "common/wire/pieces.h"
 #include "common/wire/session_host.h"
 #include "display/assemble/assembly.h"
+#include "display/session/picture_pool.h"
+#include "display/view/viewer_host.h"
 
 namespace swath {
 
 // One client's run on the display. It does what Assembly decides. A complete picture is encoded before its
 // frame is reported, so that encoding slower than rendering holds the client back instead of piling up.
+// Viewers, if there may be any, get the same pictures and hold nobody back.
 class DisplaySession final : public Session, public std::enable_shared_from_this<DisplaySession> {
   public:
-    DisplaySession(boost::asio::io_context& io, const Clock& clock, std::shared_ptr<Connection> client);
+    // `viewers`, null if nobody can look, outlives the session.
+    DisplaySession(boost::asio::io_context& io, const Clock& clock, ViewerHost* viewers,
+                   std::shared_ptr<Connection> client);
 
     std::uint64_t id() const override { return setup_.session; }
     ServerId server() const override { return {}; }
@@ -27,22 +32,24 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
   private:
     struct OpenFrame {
         AssembleFrame task;
-        Picture picture;
-
+        std::shared_ptr<Picture> picture;
         DisplayReport report;
     };
 
-    Status from_client(const Message& message);
+    Status from_client(const Message& message, Buffer&& body);
+    Status on_setup(const DisplaySetup& setup);
+    std::uint32_t begin_viewing();
     Status on_assemble(const AssembleFrame& task);
     Status from_server(ServerId from, const Message& message, Buffer&& body);
     Status run(const Assembly::Actions& actions);
     Status merge(OpenFrame& frame, ServerId from);
     void complete(FrameNumber number);
-    void report(DisplayReport&& report, Buffer encoded);
+    void tell(const Message& message, Buffer body = {});
     void give_up(const Error& error);
 
     boost::asio::io_context& io_;
     const Clock& clock_;
+    ViewerHost* const viewers_;
     std::shared_ptr<Connection> client_;
     DisplaySetup setup_;
     bool stopped_ = false;
@@ -50,7 +57,7 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     std::unique_ptr<Assembly> assembly_;
     std::map<FrameNumber, OpenFrame> frames_;
     Pieces pieces_;
-    std::vector<Picture> pool_;
+    PicturePool pool_;
     std::unique_ptr<WorkerThread> encoder_;
 };
 

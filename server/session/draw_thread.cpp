@@ -22,20 +22,57 @@ DrawThread::~DrawThread() {
     gone.wait(lock, [&] { return done; });
 }
 
-void DrawThread::load(Mesh mesh, int octree_depth, CullAlgorithm cull, RendererKind kind,
-                      std::function<void(Result<Loaded>)> done) {
-    thread_.post([this, mesh = std::make_shared<Mesh>(std::move(mesh)), octree_depth, cull, kind,
-                  done = std::move(done)] {
+// Renderer and culling are of a scene, so a new one means new ones. The old renderer goes first: a thread has
+// no two.
+Status DrawThread::configure(const Drawing& drawing) {
+    const bool cut = drawing.octree_depth != scene_.depth;
+    if (cut || drawing.renderer != drawing_.renderer) renderer_.reset();
+    if (cut) {
+        cull_.reset();
+        scene_ = build_objects(std::move(scene_.mesh), {drawing.octree_depth, 0});
+    }
+    if (!cull_ || drawing.cull != drawing_.cull) {
+        cull_.reset();
+        team_ =
+            std::make_unique<ThreadTeam>(drawing.cull == CullAlgorithm::kNone ? 1 : cull_threads_, clock_);
+        cull_ = std::make_unique<LeafCull>(drawing.cull, scene_, *team_);
+    }
+    drawing_ = drawing;
+    if (renderer_) return {};
+    auto renderer = factory_(drawing.renderer, scene_);
+    if (!renderer) return tl::unexpected(renderer.error());
+    renderer_ = std::move(*renderer);
+    return {};
+}
+
+Loaded DrawThread::loaded() const {
+    return {scene_.objects.size(), scene_.mesh.triangle_count(), renderer_->description(), drawing_, {}};
+}
+
+void DrawThread::load(Mesh mesh, const Drawing& drawing, std::function<void(Result<Loaded>)> done) {
+    thread_.post([this, mesh = std::make_shared<Mesh>(std::move(mesh)), drawing, done = std::move(done)] {
         try {
-            scene_ = build_objects(std::move(*mesh), {octree_depth, 0});
-            team_ = std::make_unique<ThreadTeam>(cull == CullAlgorithm::kNone ? 1 : cull_threads_, clock_);
-            cull_ = std::make_unique<LeafCull>(cull, scene_, *team_);
-            auto renderer = factory_(kind, scene_);
-            if (!renderer) return done(tl::unexpected(renderer.error()));
-            renderer_ = std::move(*renderer);
-            done(Loaded{scene_.objects.size(), scene_.mesh.triangle_count(), renderer_->description()});
+            scene_ = build_objects(std::move(*mesh), {drawing.octree_depth, 0});
+            if (const auto status = configure(drawing); !status) return done(tl::unexpected(status.error()));
+            done(loaded());
         } catch (const std::bad_alloc&) {
             done(fail("not enough memory for the model"));
+        }
+    });
+}
+
+void DrawThread::reconfigure(const Drawing& drawing, std::function<void(Result<Loaded>)> done) {
+    thread_.post([this, drawing, done = std::move(done)] {
+        try {
+            const Drawing before = drawing_;
+            const auto status = configure(drawing);
+            if (status) return done(loaded());
+            if (const auto back = configure(before); !back) return done(tl::unexpected(back.error()));
+            Loaded as_before = loaded();
+            as_before.refused = status.error().message;
+            done(std::move(as_before));
+        } catch (const std::bad_alloc&) {
+            done(fail("not enough memory to cut the model anew"));
         }
     });
 }

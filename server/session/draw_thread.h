@@ -13,6 +13,7 @@
 #include "common/render/renderer.h"
 #include "common/scene/objects.h"
 #include "common/timeline/timeline.h"
+#include "common/wire/messages.h"
 
 namespace swath {
 
@@ -34,6 +35,8 @@ struct Loaded {
     std::size_t objects = 0;
     std::size_t triangles = 0;
     std::string renderer;
+    Drawing drawing;      // in effect
+    std::string refused;  // why a reconfiguration was not done; the rest is as it was
 };
 
 // How a server gets its renderer; benchmarks and tests bring their own.
@@ -51,11 +54,14 @@ class DrawThread {
     // Runs something slow that needs no scene, e.g. reading a model.
     void run(std::function<void()> task) { thread_.post(std::move(task)); }
     // Cuts the mesh into objects and makes what culls and draws them.
-    void load(Mesh mesh, int octree_depth, CullAlgorithm cull, RendererKind kind,
-              std::function<void(Result<Loaded>)> done);
+    void load(Mesh mesh, const Drawing& drawing, std::function<void(Result<Loaded>)> done);
+    // Does the same otherwise; where that fails, goes back to what was. Fails only when there is no way back.
+    void reconfigure(const Drawing& drawing, std::function<void(Result<Loaded>)> done);
     void draw(DrawJob job, std::function<void(Drawn)> done);
 
   private:
+    Status configure(const Drawing& drawing);
+    Loaded loaded() const;
     Drawn draw_now(DrawJob job);
 
     RendererFactory factory_;
@@ -63,6 +69,7 @@ class DrawThread {
     std::size_t cull_threads_;
     std::unique_ptr<ThreadTeam> team_;    // of thread_
     ObjectSet scene_;                     // of thread_
+    Drawing drawing_;                     // of thread_; of what there is
     std::unique_ptr<LeafCull> cull_;      // of thread_
     std::unique_ptr<Renderer> renderer_;  // of thread_
     WorkerThread thread_;                 // last: its tasks use the rest

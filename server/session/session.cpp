@@ -87,6 +87,7 @@ Status ServerSession::from_client(Message&& message, Buffer&& body) {
     if (const auto* setup = std::get_if<ServerSetup>(&message)) return on_setup(*setup);
     if (const auto* part = std::get_if<ModelPart>(&message)) return on_model_part(*part, body);
     if (std::holds_alternative<Connect>(message)) return on_connect();
+    if (const auto* other = std::get_if<Reconfigure>(&message)) return on_reconfigure(*other);
     if (auto* task = std::get_if<RenderFrame>(&message)) return on_render_frame(std::move(*task));
     return fail("{} is not expected from a client", name(message));
 }
@@ -151,21 +152,31 @@ Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
     return {};
 }
 
-void ServerSession::load(Mesh mesh) {
-    draw_thread_->load(
-        std::move(mesh), setup_.octree_depth, setup_.cull, setup_.renderer,
-        [self = shared_from_this()](const Result<Loaded>& result) {
-            asio::post(self->io_, [self, result] { self->resume([&] { return self->on_loaded(result); }); });
-        });
+void ServerSession::load(Mesh mesh) { draw_thread_->load(std::move(mesh), setup_.drawing, when_loaded()); }
+
+std::function<void(Result<Loaded>)> ServerSession::when_loaded() {
+    return [self = shared_from_this()](const Result<Loaded>& result) {
+        asio::post(self->io_, [self, result] { self->resume([&] { return self->on_loaded(result); }); });
+    };
 }
 
 Status ServerSession::on_loaded(const Result<Loaded>& loaded) {
     if (!loaded) return tl::unexpected(loaded.error());
     objects_ = loaded->objects;
     ready_ = true;
-    spdlog::info("model {}: {} triangles in {} objects; {}", setup_.model, loaded->triangles, loaded->objects,
-                 loaded->renderer);
-    tell_client(Ready{loaded->objects, loaded->triangles, loaded->renderer});
+    reconfiguring_ = false;
+    setup_.drawing = loaded->drawing;
+    spdlog::info("model {}: {} triangles in {} objects; {}{}{}", setup_.model, loaded->triangles,
+                 loaded->objects, loaded->renderer,
+                 loaded->refused.empty() ? "" : ", still: ", loaded->refused);
+    tell_client(Ready{loaded->objects, loaded->triangles, loaded->renderer, loaded->refused});
+    return {};
+}
+
+Status ServerSession::on_reconfigure(const Reconfigure& reconfigure) {
+    if (!connected_ || reconfiguring_ || !frames_.empty()) return fail("Reconfigure is not expected now");
+    reconfiguring_ = true;
+    draw_thread_->reconfigure(reconfigure.drawing, when_loaded());
     return {};
 }
 
@@ -241,6 +252,7 @@ void ServerSession::report_if_connected() {
 
 Status ServerSession::check(const RenderFrame& task) const {
     if (!connected_) return fail("RenderFrame before Connected");
+    if (reconfiguring_) return fail("RenderFrame before Ready");
     if (!task.group.empty() && task.group.back() >= objects_)
         return fail("RenderFrame: object {}, this model has {}", task.group.back(), objects_);
     for (const auto* exchanges : {&task.outgoing, &task.incoming})
@@ -327,7 +339,7 @@ Status ServerSession::on_drawn(FrameNumber number, Drawn& drawn) {
     report[Counter::kObjects] = drawn.list.objects;
     report[Counter::kLeaves] = drawn.list.leaves;
     report[Counter::kSplitLevel] = static_cast<std::uint64_t>(drawn.list.split_level.value_or(0));
-    if (setup_.cull != CullAlgorithm::kNone && drawn.list.visible.size() <= kMaxVisibleCounts)
+    if (setup_.drawing.cull != CullAlgorithm::kNone && drawn.list.visible.size() <= kMaxVisibleCounts)
         report.visible = std::move(drawn.list.visible);
     return run(swap_->on_drawn(number));
 }

@@ -44,6 +44,9 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     Status on_model_part(const ModelPart& part, const Buffer& body);
     void load(Mesh mesh);
     Status on_loaded(const Result<Loaded>& loaded);
+    Status on_reconfigure(const Reconfigure& reconfigure);
+    // Of load() and reconfigure(): back to this thread.
+    std::function<void(Result<Loaded>)> when_loaded();
     Status on_connect();
     void connect(const std::string& address, Role role, ServerId id);
     Status on_peer_hello(Role role, ServerId id, const Hello& hello) const;
@@ -75,6 +78,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     bool set_up_ = false;
     bool part_awaited_ = false;
     bool ready_ = false;
+    bool reconfiguring_ = false;
     bool connecting_ = false;
     bool connected_ = false;
     std::size_t answered_ = 0;  // of those it connected to: the display and the servers with smaller ids

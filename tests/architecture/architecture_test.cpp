@@ -41,7 +41,7 @@ TEST(Architecture, ArrowsRunDownwards) {
     EXPECT_TRUE(offences.empty()) << listed(offences);
 }
 
-TEST(Architecture, ProtobufAndAsioStayWhereTheyBelong) {
+TEST(Architecture, ProtobufAsioAndBeastStayWhereTheyBelong) {
     const std::vector<std::string> offences = forbidden_headers(our_tree());
     EXPECT_TRUE(offences.empty()) << listed(offences);
 }
@@ -140,14 +140,22 @@ TEST(Arrows, WithinCommonGoToLowerLayersOnly) {
                             "common's layers"));
 }
 
-TEST(Headers, OfProtobufAndAsioAreReportedOutsideTheirFolders) {
+TEST(Headers, OfProtobufAsioAndBeastAreReportedOutsideTheirFolders) {
     EXPECT_THAT(forbidden_headers({{"client/cluster/a.cpp", {"common/wire/swath.pb.h", "boost/asio.hpp"}}}),
                 ElementsAre("client/cluster/a.cpp -> common/wire/swath.pb.h: protobuf stays in common/wire"));
     EXPECT_THAT(
         forbidden_headers({{"client/director/a.h", {"boost/asio/awaitable.hpp"}}}),
         ElementsAre("client/director/a.h -> boost/asio/awaitable.hpp: Asio stays in the networking folders"));
+    EXPECT_THAT(
+        forbidden_headers(
+            {{"display/view/a.h", {"boost/beast/core.hpp"}}, {"display/session/a.cpp", {"boost/beast.hpp"}}}),
+        ElementsAre("display/session/a.cpp -> boost/beast.hpp: Beast stays in sources of display/view "
+                    "and tests/support",
+                    "display/view/a.h -> boost/beast/core.hpp: Beast stays in sources of display/view "
+                    "and tests/support"));
     EXPECT_THAT(forbidden_headers({{"common/wire/a.cpp", {"swath.pb.h", "boost/asio.hpp"}},
                                    {"server/session/a.cpp", {"boost/asio.hpp"}},
+                                   {"display/view/a.cpp", {"boost/beast/http.hpp"}},
                                    {"display/main.cpp", {"boost/asio.hpp"}},
                                    {"tests/common/wire/a.cpp", {"boost/asio.hpp"}}}),
                 IsEmpty());

@@ -41,7 +41,11 @@ const std::set<std::string_view> kDecisionFolders = {"client/partition", "client
 
 // Where <boost/asio.hpp> may be included: networking. Also in every main.cpp and in tests.
 const std::set<std::string_view> kAsioFolders = {"common/wire",   "common/program", "client/cluster",
-                                                 "client/launch", "server/session", "display/session"};
+                                                 "client/launch", "server/session", "display/session",
+                                                 "display/view"};
+
+// Where Boost.Beast may be: it takes longest of all to compile.
+const std::set<std::string_view> kBeastFolders = {"display/view", "tests/support"};
 
 std::string_view top_of(std::string_view path) { return path.substr(0, path.find('/')); }
 
@@ -193,6 +197,10 @@ std::vector<std::string> forbidden_headers(const IncludeGraph& graph) {
                 offences.push_back(arrow(file, include, "protobuf stays in common/wire"));
             if ((include == "boost/asio.hpp" || include.starts_with("boost/asio/")) && !may_asio)
                 offences.push_back(arrow(file, include, "Asio stays in the networking folders"));
+            if ((include == "boost/beast.hpp" || include.starts_with("boost/beast/")) &&
+                (!file.ends_with(".cpp") || !kBeastFolders.contains(folder)))
+                offences.push_back(
+                    arrow(file, include, "Beast stays in sources of display/view and tests/support"));
         }
     }
     return offences;

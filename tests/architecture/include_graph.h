@@ -31,6 +31,6 @@ std::vector<std::string> folder_cycles(const IncludeGraph& graph);  // of all fo
 std::vector<std::string> forbidden_arrows(
     const IncludeGraph& graph);  // between top folders and within common
 std::vector<std::string> forbidden_headers(
-    const IncludeGraph& graph);  // protobuf and Asio outside their folders
+    const IncludeGraph& graph);  // protobuf, Asio and Beast outside their folders
 
 }  // namespace swath::architecture

@@ -142,8 +142,8 @@ double process_cpu_s() {
 // Swap, composite and gather of `peer.servers` server processes and a display on one core over TCP: all their
 // CPU time and the client's, less what the timeline says went into partitioning, culling, drawing and reading
 // back.
-Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer, const ObjectSet& scene,
-                        const Mesh& mesh) {
+Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer,
+                        const std::shared_ptr<const ObjectSet>& scene, const Mesh& mesh) {
     const std::size_t passes =
         2 + 2 * static_cast<std::size_t>(effort.repetitions);  // the first fills the caches
     std::vector<std::unique_ptr<Child>> servers;
@@ -166,9 +166,9 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
     for (const auto& server : servers) job.servers.push_back(server->address());
     job.display = display.address();
     job.model = "none: the client has it";
-    job.scene = &scene;
+    job.scene = scene;
     job.blob = write_blob(mesh);
-    const auto orbit = peers_orbit(scene.bounds);
+    const auto orbit = peers_orbit(scene->bounds);
     for (std::size_t pass = 0; pass < passes; ++pass)
         job.cameras.insert(job.cameras.end(), orbit.begin(), orbit.end());
     job.width = kWidth;
@@ -185,7 +185,7 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
     const SteadyClock clock;
     std::size_t done = 0;
     const auto timelines = run_cluster(
-        std::move(job), clock, [] {},
+        std::move(job), clock, [](const std::string&) {},
         [&](FrameNumber, const Buffer&) -> Status {
             if (++done % kViews == 0) cpu_at.push_back(all_cpu());
             return {};
@@ -278,7 +278,7 @@ Status bench_peers(Figures& figures, const Effort& effort) {
     ::setenv("LP_NUM_THREADS", "0", 1);
     const auto mesh = load_model(effort.model);
     if (!mesh) return tl::unexpected(mesh.error());
-    const ObjectSet scene = build_objects(*mesh, {});
+    const auto scene = std::make_shared<const ObjectSet>(build_objects(*mesh, {}));
     {
         const OneCore one_core;
         for (const Peer& peer : kPeers)
@@ -290,7 +290,7 @@ Status bench_peers(Figures& figures, const Effort& effort) {
     figures.note(
         "CPU a frame, one process: OpenSceneGraph 3.6.5 192-201 ms, 8.7 frames/s; VTK 9.1 242-245 ms, 7.25; "
         "ParaView 5.11 265-302 ms, 6.3.");
-    return bench_frames(figures, effort, scene.bounds);
+    return bench_frames(figures, effort, scene->bounds);
 }
 
 }  // namespace swath::bench

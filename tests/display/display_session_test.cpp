@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "display/session/display.h"
+#include "tests/support/web_client.h"
 #include "tests/support/wire_peer.h"
 
 namespace swath::test {
@@ -13,6 +14,35 @@ using testing::MatchesRegex;
 class DisplayTest : public testing::Test {
   protected:
     DisplayTest() { display_ = std::move(*make_display(loop_.io, {}, loop_.clock)); }
+
+    // From now on people can look.
+    void view() {
+        viewers_ = std::move(*ViewerHost::make({}, loop_.clock));
+        DisplayOptions options;
+        options.viewers = viewers_.get();
+        display_ = std::move(*make_display(loop_.io, options, loop_.clock));
+    }
+    // One who looks and has heard so.
+    std::unique_ptr<WebClient> viewer() {
+        auto made = std::move(*WebClient::connect(viewers_->address()));
+        EXPECT_TRUE(made->next().has_value());
+        return made;
+    }
+    // The next message that begins like this; text or not. The display goes on meanwhile.
+    std::string next(WebClient& viewer, std::string_view begin, bool text = true) {
+        std::string found;
+        loop_.run_until([&] {
+            const auto message = viewer.next(std::chrono::milliseconds(1));
+            if (message && message->text == text && message->bytes.starts_with(begin)) found = message->bytes;
+            return !found.empty();
+        });
+        return found;
+    }
+    static Buffer buffer_of(std::string_view text) {
+        Buffer bytes;
+        bytes.append(text.data(), text.size());
+        return bytes;
+    }
 
     std::unique_ptr<Peer> come(const Hello& hello) {
         return std::make_unique<Peer>(loop_, connect(loop_, display_->address()), hello);
@@ -53,6 +83,7 @@ class DisplayTest : public testing::Test {
     const Exchange left_{server_id(0), {{0, 0, 2, 2}}};
     const Exchange right_{server_id(1), {{3, 0, 4, 2}}};
     Loop loop_;
+    std::unique_ptr<ViewerHost> viewers_;
     std::unique_ptr<SessionHost> display_;
     std::vector<std::unique_ptr<Peer>> servers_;
 };
@@ -205,6 +236,101 @@ TEST_F(DisplayTest, ServesTheNextClientAfterOneThatVanished) {
     two->send(task(0, {left_}));
     send_tile(0, 0, left_.region, 1);
     two->expect<DisplayReport>();
+}
+
+// With viewers.
+
+TEST_F(DisplayTest, SaysWhereItsPageIsAndHowManyLook) {
+    const auto plain = client();
+    plain->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2});
+    EXPECT_EQ(plain->expect<Ready>().description, "");
+    plain->connection->finish();
+    view();
+    const auto early = viewer();
+    const auto one = client();
+    one->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2});
+    EXPECT_EQ(one->expect<Ready>().description, viewers_->url());
+    EXPECT_EQ(one->expect<Audience>(), Audience{1});
+    const auto late = viewer();
+    EXPECT_EQ(one->expect<Audience>(), Audience{2});
+    early->close();
+    EXPECT_EQ(one->expect<Audience>(), Audience{1});
+}
+
+TEST_F(DisplayTest, ShowsViewersThePicturesThatTheClientGets) {
+    view();
+    const auto looks = viewer();
+    const auto one = ready_client(2, PictureFormat::kPng);
+    EXPECT_EQ(one->expect<Audience>(), Audience{1});
+    const std::string plan = R"({"type":"plan","tiles":[]})";
+    one->send(Note{NoteTopic::kPlan, 0}, buffer_of(plan));
+    one->send(task(0, {left_, right_}));
+    send_tile(0, 0, left_.region, 0x060504);
+    send_tile(1, 0, right_.region, 0x030201);
+    one->expect<DisplayReport>();
+    const std::string file(reinterpret_cast<const char*>(one->body.data()), one->body.size());
+    EXPECT_THAT(next(*looks, "", false),
+                testing::HasSubstr(R"("format":"jpeg","width":4,"height":2,"plan":)" + plan));
+    const std::string exact = next(*looks, "", false);
+    EXPECT_THAT(exact, testing::HasSubstr(R"({"frame":0,"stream":0,"format":"png")"));
+    EXPECT_TRUE(exact.ends_with(file));
+}
+
+TEST_F(DisplayTest, PassesWishesAndNotesBetweenClientAndViewers) {
+    view();
+    const auto looks = viewer();
+    const auto one = client();
+    one->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2, true});
+    one->expect<Ready>();
+    one->expect<Audience>();
+    const std::string wish = R"({"type": "wish", "id": 3})";
+    looks->send(wish);
+    EXPECT_EQ(one->expect<Wish>(), Wish{1});
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(one->body.data()), one->body.size()), wish);
+    one->send(Note{NoteTopic::kState, 0}, buffer_of(R"({"type":"state","wish":3})"));
+    EXPECT_EQ(next(*looks, R"({"type":"state")"), R"({"type":"state","wish":3})");
+}
+
+TEST_F(DisplayTest, EndsAClientWhoseNotesAreNone) {
+    view();
+    const auto looks = viewer();
+    const auto early = client();
+    early->send(Note{NoteTopic::kState, 0}, buffer_of("{}"));
+    EXPECT_EQ(early->ending(), "Note before DisplaySetup");
+    const auto one = ready_client(1);
+    one->send(Note{NoteTopic::kState, 0}, buffer_of("{"));
+    EXPECT_EQ(one->ending(), "Note: not a JSON object");
+    const auto two = ready_client(1);
+    two->send(Note{NoteTopic::kState, 0}, Buffer(kMaxNoteBytes + 1));
+    EXPECT_EQ(two->ending(), "Note: 8388609 bytes, the limit is 8388608");
+    EXPECT_EQ(looks->close_code(), std::nullopt);
+}
+
+TEST_F(DisplayTest, DropsNotesWhereNobodyCanLook) {
+    const auto one = ready_client(1);
+    one->send(Note{NoteTopic::kState, 0}, buffer_of("{}"));
+    one->send(task(0, {}));
+    one->expect<DisplayReport>();
+}
+
+TEST_F(DisplayTest, ViewersOutliveClientsThatVanishAndSeeTheNext) {
+    view();
+    const auto looks = viewer();
+    for (const char* model : {"a", "b", "c"}) {
+        const auto one = ready_client(1);
+        const std::string note = fmt::format(R"({{"type":"session","model":"{}"}})", model);
+        one->send(Note{NoteTopic::kSession, 0}, buffer_of(note));
+        one->send(task(0, {left_}));
+        send_tile(0, 0, left_.region, 1);
+        one->expect<Audience>();
+        one->expect<DisplayReport>();
+        EXPECT_EQ(next(*looks, R"({"type":"session")"), note);
+        looks->send(R"({"type": "wish"})");  // may find no one
+        one->connection->close();
+        loop_.run_until([&] { return viewers_->numbers().waiting_bytes == 0 && servers_[0]->closed; });
+        EXPECT_EQ(next(*looks, R"({"type":"audience","you":1,"lead":1,"viewers":1,"session":false})").empty(),
+                  false);
+    }
 }
 
 }  // namespace

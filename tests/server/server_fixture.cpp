@@ -21,7 +21,7 @@ ServerSetup ServerTest::setup(std::size_t server, std::size_t count) {
     made.model = cache_.path_of("no such model.ply");
     made.digest = digest(blob_.bytes());
     made.blob_bytes = blob_.size();
-    made.octree_depth = 2;
+    made.drawing.octree_depth = 2;
     for (std::size_t i = 0; i < count; ++i)
         made.servers.push_back(to_string(i == server ? server_->address() : doors_[i]->address()));
     made.display = to_string(display_door_.address());

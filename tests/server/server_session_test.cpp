@@ -228,5 +228,72 @@ TEST_F(ServerTest, ServesTheNextClientAfterOneThatVanished) {
     two->expect<ServerReport>();
 }
 
+// --- cutting, drawing and culling differently
+
+TEST_F(ServerTest, CutsTheModelAnewBetweenFrames) {
+    const auto one = connected_client();
+    Drawing drawing = setup().drawing;
+    drawing.octree_depth = 0;
+    drawing.cull = CullAlgorithm::kNone;
+    one->send(Reconfigure{drawing});
+    const Ready ready = one->expect<Ready>();
+    EXPECT_EQ(ready.objects, 1u);
+    EXPECT_EQ(ready.triangles, 12u);
+    EXPECT_EQ(ready.refused, "");
+    one->send(task(0));  // names objects that are gone
+    EXPECT_THAT(one->ending(), HasSubstr("this model has 1"));
+}
+
+TEST_F(ServerTest, GoesOnAsBeforeWhenItCannotDrawDifferently) {
+    const auto one = connected_client();
+    int made = 0;
+    before_renderer_ = [&] { return made++ == 0 ? Status(fail("EGL: no surfaceless platform")) : Status(); };
+    one->send(Reconfigure{{0, RendererKind::kEgl, CullAlgorithm::kWide}});
+    const Ready ready = one->expect<Ready>();
+    EXPECT_EQ(ready.refused, "EGL: no surfaceless platform");
+    EXPECT_EQ(ready.objects, objects_);
+    one->send(task(0));
+    display_->expect<TilePixels>();
+    EXPECT_EQ(one->expect<ServerReport>().visible.size(), objects_);
+}
+
+TEST_F(ServerTest, EndsTheSessionWhenItCannotGoBackEither) {
+    const auto one = connected_client();
+    before_renderer_ = [] { return Status(fail("no more memory")); };
+    one->send(Reconfigure{{0, RendererKind::kEgl, CullAlgorithm::kWide}});
+    EXPECT_EQ(one->ending(), "no more memory");
+}
+
+TEST_F(ServerTest, RefusesToChangeOutOfTurn) {
+    const auto early = ready_client(setup());
+    early->send(Reconfigure{});
+    EXPECT_EQ(early->ending(), "Reconfigure is not expected now");
+    struct Hold {
+        std::atomic<bool> next = false;
+        std::atomic<bool> holding = false;
+        std::promise<void> go_on;
+    };
+    const auto ending_while_changing = [&](const Message& message) {
+        const auto hold = std::make_shared<Hold>();
+        before_renderer_ = [hold] {
+            if (hold->next.exchange(false)) {
+                hold->holding = true;
+                hold->go_on.get_future().wait();
+            }
+            return Status();
+        };
+        const auto one = connected_client();
+        hold->next = true;
+        one->send(Reconfigure{{2, RendererKind::kEgl, CullAlgorithm::kWide}});
+        loop_.run_until([&] { return hold->holding.load(); });
+        one->send(message);
+        hold->go_on
+            .set_value();  // before the loop runs: the session's end waits for the renderer, in this thread
+        return one->ending();
+    };
+    EXPECT_EQ(ending_while_changing(Reconfigure{}), "Reconfigure is not expected now");
+    EXPECT_EQ(ending_while_changing(task(0)), "RenderFrame before Ready");
+}
+
 }  // namespace
 }  // namespace swath::test

@@ -88,9 +88,7 @@ class Maker {
         m.model = text();
         for (std::uint8_t& byte : m.digest) byte = static_cast<std::uint8_t>(u32());
         m.blob_bytes = u64();
-        m.octree_depth = static_cast<int>(below(kMaxOctreeDepth + 1));
-        m.renderer = below(2) == 0 ? RendererKind::kOsmesa : RendererKind::kEgl;
-        m.cull = static_cast<CullAlgorithm>(below(kCullAlgorithmCount));
+        m.drawing = drawing();
         m.display = text();
         m.frames_in_flight = 1 + below(kMaxFramesInFlight);
         return m;
@@ -99,7 +97,7 @@ class Maker {
         const auto format = static_cast<PictureFormat>(below(3));
         return {u64(), 1 + below(kMaxServers), format, 1 + below(kMaxFramesInFlight), below(2) == 0};
     }
-    Reconfigure reconfigure() {
+    Drawing drawing() {
         return {static_cast<int>(below(kMaxOctreeDepth + 1)),
                 below(2) == 0 ? RendererKind::kOsmesa : RendererKind::kEgl,
                 static_cast<CullAlgorithm>(below(kCullAlgorithmCount))};
@@ -153,7 +151,7 @@ std::vector<Message> sample_messages(std::uint32_t seed) {
     all.emplace_back(make.report<DisplayReport>());
     all.emplace_back(Failed{make.text()});
     all.emplace_back(Bye{});
-    all.emplace_back(make.reconfigure());
+    all.emplace_back(Reconfigure{make.drawing()});
     all.emplace_back(Audience{make.u32()});
     all.emplace_back(Wish{make.u32()});
     all.emplace_back(make.note());

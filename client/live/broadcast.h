@@ -1,0 +1,47 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/live/live_view.h"
+#include "client/live/notes.h"
+#include "common/base/clock.h"
+#include "common/wire/messages.h"
+
+namespace swath {
+
+// Tells viewers about a run, and only while there are some: composes the notes and hands them to `send`. What stays
+// (session, objects, state, speed-ups) is told anew to whoever comes first. One thread.
+class Broadcast {
+  public:
+    using Send = std::function<void(NoteTopic, FrameNumber, const std::string&)>;
+    explicit Broadcast(Send send) : send_(std::move(send)) {}
+
+    void on_viewers(std::uint32_t viewers);
+    // `live` is null in a run along a path.
+    void on_session(SessionFacts facts, const LiveView* live, const WishLimits& limits);
+    // The model is cut like this from the next plan on.
+    void on_scene(std::shared_ptr<const ObjectSet> scene);
+    void on_state(const LiveView& live, const std::string& busy, const std::string& command);
+    void on_planned(const FrameOrder& order, const FramePlan& plan, double overlap);
+    void on_over(const FinishedFrame& frame, Nanoseconds now);
+    void on_trace(const std::vector<FrameTimeline>& frames);
+
+  private:
+    void tell(NoteTopic topic, const std::string& text, FrameNumber frame = 0);
+    // Kept for those who come first.
+    void keep(NoteTopic topic, std::string text);
+    void tell_objects();
+
+    Send send_;
+    std::uint32_t viewers_ = 0;
+    std::shared_ptr<const ObjectSet> scene_;
+    std::uint64_t generation_ = 0;
+    std::optional<Nanoseconds> last_over_;
+    std::map<NoteTopic, std::string> kept_;  // session, state
+};
+
+}  // namespace swath

@@ -1,0 +1,194 @@
+#include "client/live/notes.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace swath {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+// The double that JSON writes as shortly as the float: 0.1, not 0.10000000149.
+double decimal(float number) {
+    char text[32];
+    const auto end = std::to_chars(std::begin(text), std::end(text), number).ptr;
+    double value = 0;
+    std::from_chars(std::begin(text), end, value);
+    return value;
+}
+
+template <class Numbers>
+Json decimals(const Numbers& numbers) {
+    Json list = Json::array();
+    for (const float number : numbers) list.push_back(decimal(number));
+    return list;
+}
+
+Json flat(const Region& region) {
+    Json list = Json::array();
+    for (const Rect& r : region)
+        for (const int v : {r.x0, r.y0, r.x1, r.y1}) list.push_back(v);
+    return list;
+}
+
+void put_box(const Box& box, Json& list) {
+    for (const glm::vec3& corner : {box.min, box.max})
+        for (int i = 0; i < 3; ++i) list.push_back(decimal(corner[i]));
+}
+
+template <class Names>
+Json names_of(const Names& all) {
+    Json names = Json::array();
+    for (const auto& one : all) names.push_back(name_of(one));
+    return names;
+}
+
+Json name_or_null(const std::optional<Algorithm>& algorithm) {
+    return algorithm ? Json(name_of(*algorithm)) : Json();
+}
+
+}  // namespace
+
+std::string session_note(const SessionFacts& facts, const LiveView* live, const WishLimits& limits) {
+    Json note{{"type", "session"},
+              {"model", facts.model},
+              {"triangles", facts.triangles},
+              {"live", live != nullptr},
+              {"why", live != nullptr ? Json()
+                                      : Json("this run follows a camera path; swath-client --view starts one "
+                                             "that can be steered")},
+              {"home", live != nullptr ? decimals(live->home()) : Json()},
+              {"background", fmt::format("#{:02x}{:02x}{:02x}", facts.background[0], facts.background[1],
+                                         facts.background[2])}};
+    Json& bounds = note["bounds"] = Json::array();
+    put_box(facts.bounds, bounds);
+    Json& servers = note["servers"] = Json::array();
+    for (std::size_t i = 0; i < facts.servers.size(); ++i)
+        servers.push_back({{"name", server_name(server_id(i))},
+                           {"address", facts.servers[i].address},
+                           {"renderer", facts.servers[i].renderer}});
+    note["choices"] = {{"algorithms", names_of(all_algorithms())},
+                       {"renderers", names_of(kRendererKinds)},
+                       {"culls", names_of(all_cull_algorithms())},
+                       {"paths", {"orbit", "random"}},
+                       {"objects", {100, 400, 1500, 6000, 25'000}},
+                       {"max_width", limits.max_width},
+                       {"max_height", limits.max_height}};
+    return text_of(note);
+}
+
+std::string objects_note(std::uint64_t generation, const ObjectSet& scene) {
+    Json note{{"type", "objects"},
+              {"generation", generation},
+              {"depth", scene.depth},
+              {"count", scene.objects.size()},
+              {"boxes", nullptr}};
+    if (scene.objects.size() <= kMaxBoxes) {
+        Json& boxes = note["boxes"] = Json::array();
+        for (const Object& object : scene.objects) put_box(object.box, boxes);
+    }
+    return text_of(note);
+}
+
+std::string plan_note(const FrameOrder& order, const FramePlan& plan, double overlap, std::uint64_t generation) {
+    Json note{{"wish", order.wish},
+              {"by", order.by},
+              {"algorithm", name_of(order.algorithm)},
+              {"servers", plan.servers.size()},
+              {"width", order.width},
+              {"height", order.height},
+              {"camera", decimals(order.numbers)},
+              {"generation", generation},
+              {"overlap", overlap}};
+    Json& clip = note["clip"] = Json::array();
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row) clip.push_back(decimal(plan.view.clip_from_model[column][row]));
+    std::size_t ids = 0;
+    for (const ServerShare& share : plan.servers) ids += share.group.size();
+    Json tiles = Json::array();
+    Json contents = Json::array();
+    Json groups = Json::array();
+    for (const ServerShare& share : plan.servers) {
+        tiles.push_back(flat(share.tile));
+        contents.push_back(share.content.empty() ? Json::array() : flat({share.content}));
+        if (ids > kMaxObjectsInPlan) continue;
+        Json steps = Json::array();
+        ObjectId before = 0;
+        for (const ObjectId id : share.group) steps.push_back(id - std::exchange(before, id));
+        groups.push_back(std::move(steps));
+    }
+    note["tiles"] = std::move(tiles);
+    note["contents"] = std::move(contents);
+    note["groups"] = ids > kMaxObjectsInPlan ? Json() : std::move(groups);
+    Json& links = note["links"] = Json::array();
+    for (const Transfer& transfer : transfers(plan)) {
+        Json link{index(transfer.from), index(transfer.to)};
+        for (Json& number : flat(transfer.region)) link.push_back(std::move(number));
+        links.push_back(std::move(link));
+    }
+    return text_of(note);
+}
+
+std::string state_note(const LiveView& live, const std::string& busy, const std::string& command) {
+    const LiveWish& wish = live.wish();
+    const Json note{{"type", "state"},
+                    {"wish", wish.id},
+                    {"by", wish.by},
+                    {"camera", decimals(live.camera())},
+                    {"width", wish.width},
+                    {"height", wish.height},
+                    {"algorithm", name_of(wish.algorithm)},
+                    {"against", name_or_null(wish.against)},
+                    {"servers", wish.servers},
+                    {"objects", live.setup().objects},
+                    {"renderer", name_of(live.setup().renderer)},
+                    {"cull", name_of(live.setup().cull)},
+                    {"path", wish.path.empty() ? Json() : Json(wish.path)},
+                    {"paused", wish.paused},
+                    {"refused", live.refused()},
+                    {"busy", busy.empty() ? Json() : Json(busy)},
+                    {"command", command}};
+    return text_of(note);
+}
+
+namespace {
+
+double ms(Nanoseconds time) { return std::round(static_cast<double>(time.count()) / 1e3) / 1e3; }
+
+Json machine_json(const MachineTimeline& machine) {
+    Json spans = Json::array();
+    for (const Span& span : machine.spans)
+        spans.push_back({name(span.phase), ms(span.begin), ms(span.end), ms(span.cpu)});
+    Json counters = Json::object();
+    for (std::size_t c = 0; c < kCounterCount; ++c)
+        if (machine.counters[c] > 0) counters[std::string(name(static_cast<Counter>(c)))] = machine.counters[c];
+    return {{"name", machine.machine}, {"spans", std::move(spans)}, {"counters", std::move(counters)}};
+}
+
+}  // namespace
+
+std::string frame_note(const FinishedFrame& frame, const FrameFindings& findings) {
+    Json note{{"type", "frame"},
+              {"frame", frame.timeline.frame},
+              {"stream", frame.order.stream},
+              {"algorithm", name_of(frame.order.algorithm)},
+              {"servers", frame.order.servers},
+              {"overlap", frame.timeline.overlap_factor},
+              {"interval", findings.interval ? Json(ms(*findings.interval)) : Json()},
+              {"prediction", nullptr},
+              {"others", nullptr}};
+    Json& machines = note["machines"] = Json::array();
+    for (const MachineTimeline& machine : frame.timeline.machines) machines.push_back(machine_json(machine));
+    return text_of(note);
+}
+
+std::string trace_note(const std::string& trace) {
+    return fmt::format(R"({{"type":"trace","trace":{}}})", trace);
+}
+
+}  // namespace swath

@@ -1,0 +1,54 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "client/live/live_view.h"
+#include "client/partition/projection.h"
+#include "common/image/picture.h"
+#include "common/plan/frame_plan.h"
+#include "common/scene/objects.h"
+#include "common/timeline/timeline.h"
+
+namespace swath {
+
+// The texts that viewers get about a run: JSON objects, as docs/viewer.md lists them. Pure functions; any thread.
+
+// A run as it stays.
+struct SessionFacts {
+    struct Server {
+        std::string address;
+        std::string renderer;
+    };
+    std::string model;
+    std::size_t triangles = 0;
+    Box bounds;
+    std::vector<Server> servers;
+    Rgb background{};
+};
+
+// A frame that is over: what was asked for, what was decided, what happened.
+struct FinishedFrame {
+    FrameOrder order;
+    FramePlan plan;
+    std::vector<ProjectedObject> projected;  // that the plan was made from
+    FrameTimeline timeline;
+};
+// ... and what is made of it.
+struct FrameFindings {
+    std::optional<Nanoseconds> interval;  // since the frame before was over; nothing after a rest
+};
+
+// A note has no more objects than these; a viewer hears that there are too many.
+inline constexpr std::size_t kMaxObjectsInPlan = 200'000;
+inline constexpr std::size_t kMaxBoxes = 50'000;
+
+// Without `live` the run follows a camera path.
+std::string session_note(const SessionFacts& facts, const LiveView* live, const WishLimits& limits);
+std::string objects_note(std::uint64_t generation, const ObjectSet& scene);
+std::string plan_note(const FrameOrder& order, const FramePlan& plan, double overlap, std::uint64_t generation);
+std::string state_note(const LiveView& live, const std::string& busy, const std::string& command);
+std::string frame_note(const FinishedFrame& frame, const FrameFindings& findings);
+// `trace` is JSON (to_chrome_trace).
+std::string trace_note(const std::string& trace);
+
+}  // namespace swath

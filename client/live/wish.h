@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "client/partition/partitioner.h"
+#include "client/path/camera_file.h"
+#include "common/base/result.h"
+#include "common/cull/cull_algorithm.h"
+#include "common/render/renderer_kind.h"
+
+namespace swath {
+
+// What frames depend on besides the view and the way they are divided. To change it takes a pause between two frames.
+struct LiveSetup {
+    std::size_t objects = 1500;  // about how many
+    RendererKind renderer = RendererKind::kOsmesa;
+    CullAlgorithm cull = CullAlgorithm::kWide;
+    bool operator==(const LiveSetup&) const = default;
+};
+
+// What the viewer who leads wants to see (docs/viewer.md, which explains the fields). A value.
+struct LiveWish {
+    std::uint64_t id = 0;  // the page's number
+    std::uint32_t by = 0;  // the viewer's
+    CameraNumbers camera{0, 0, 1, 0, 0, 0, 0, 1, 0, 30};
+    int width = 1280;  // pixels
+    int height = 960;
+    Algorithm algorithm = Algorithm::kHybrid;
+    std::optional<Algorithm> against;
+    std::size_t servers = 1;
+    LiveSetup setup;
+    std::string path;  // "orbit", "random"; empty: `camera`
+    bool paused = false;
+    // Counts: something is asked for when one rises.
+    std::uint64_t step = 0;
+    std::uint64_t measure = 0;
+    std::uint64_t trace = 0;
+    bool operator==(const LiveWish&) const = default;
+};
+
+struct WishLimits {
+    std::size_t servers = 1;
+    int max_width = 2560;
+    int max_height = 1600;
+};
+inline constexpr std::size_t kMaxLiveObjects = 1'000'000;
+
+// Why fields of a wish are not had, by their names.
+using Refusals = std::map<std::string, std::string>;
+
+// Takes into `wish` what the text says; fields that are missing, or that it gives reasons against, stay as they are. An
+// error when the text is no JSON object at all. Nothing in it is trusted.
+Result<Refusals> apply_wish(std::string_view json, std::uint32_t by, const WishLimits& limits, LiveWish& wish);
+
+}  // namespace swath
