@@ -44,8 +44,8 @@ export function draw_overlays(canvas, plan, objects, show, hot = null, at_rest =
     if (show.has('tiles')) draw.tints();
     if (show.has('swaths')) draw.swaths();
     if (show.has('tiles') || show.has('swaths') || show.has('overlap')) draw.borders();
-    const boxes = objects?.generation === plan.generation && objects.count <= kMostBoxes ? objects.boxes : null;
-    if (boxes && plan.clip?.length === 16) {
+    const boxes = objects?.generation === plan.generation ? objects.boxes : null;
+    if (boxes && objects.count <= kMostBoxes && plan.clip?.length === 16) {
         const servers = servers_by_object(plan);
         if (show.has('boxes')) draw.boxes(boxes, () => [kBoxes.colour], kBoxes.opacity);
         if (show.has('groups') && servers) {

@@ -7,6 +7,7 @@ import {draw_overlays, groups_of, kMostBoxes, kMostWhileMoving} from './overlays
 import {Stream} from './stream.js';
 
 const kSmallest = 16;  // pixels, of a picture that is asked for
+const kMostRows = 14;  // of a tip
 
 export class Stage {
     #cells;
@@ -30,7 +31,8 @@ export class Stage {
                     on.drawn(number, stream);
                 },
             });
-            return {element, overlay, stream, caption: document.getElementById(`caption-${number}`), box: [0, 0]};
+            const caption = document.getElementById(`caption-${number}`);
+            return {element, overlay, stream, caption, box: [0, 0]};
         });
         const observer = new ResizeObserver((entries) => {
             for (const entry of entries) {
@@ -134,7 +136,8 @@ export class Stage {
         const {width, height} = stream.size();
         if (!stream.drawn || box[0] === 0) return;
         const scale = Math.min(box[0] / width, box[1] / height);
-        const exact = Math.abs(scale - 1) * Math.max(width, height) < 2 && width <= box[0] && height <= box[1];
+        const fits = width <= box[0] && height <= box[1];
+        const exact = fits && (scale - 1) * Math.max(width, height) < 2;
         const pixels = exact ? [width, height] : [width, height].map((length) => Math.round(length * scale));
         const corner = pixels.map((length, axis) => Math.floor((box[axis] - length) / 2));
         for (const {style} of [stream.canvas, overlay]) {
@@ -166,9 +169,10 @@ export class Stage {
             const busiest = note ? busiest_ms(note) : 0;
             if (busiest > 0) parts.push(`busiest ${whole(busiest)} ms`);
         }
-        if (plan && (this.split || this.#show.has('overlap'))) parts.push(`overlap ${times(plan.overlap ?? 1)}`);
+        if (plan && (this.split || this.#show.has('overlap')))
+            parts.push(`overlap ${times(plan.overlap ?? 1)}`);
         if (plan && (this.split || this.#show.has('swaths')))
-            parts.push(`swaths ${compact(plan.links?.reduce((sum, link) => sum + area(link.rectangles), 0) ?? 0)}`);
+            parts.push(`swaths ${compact(plan.links.reduce((sum, link) => sum + area(link.rectangles), 0))}`);
         if (plan && ['groups', 'boxes', 'overlap'].some((layer) => this.#show.has(layer)))
             parts.push(...this.#why_no_boxes(plan, stream.drawn.header.format));
         const text = parts.join(' · ');
@@ -177,13 +181,14 @@ export class Stage {
     }
 }
 
-// The exact number of device pixels, which only this box knows where the pixel ratio is no whole number; unless
-// it contradicts the ratio, as it does while a browser plays another device.
+// The exact number of device pixels, which only this box knows where the pixel ratio is no whole number;
+// unless it contradicts the ratio, as it does while a browser plays another device.
 function device_pixels({contentRect, devicePixelContentBoxSize}) {
     const computed = [contentRect.width, contentRect.height].map((length) => length * devicePixelRatio);
     const exact = devicePixelContentBoxSize?.[0];
     const pixels = exact ? [exact.inlineSize, exact.blockSize] : computed;
-    return pixels.map((count, axis) => Math.abs(count - computed[axis]) <= 1 ? count : Math.floor(computed[axis]));
+    return pixels.map((count, axis) =>
+        Math.abs(count - computed[axis]) <= 1 ? count : Math.floor(computed[axis]));
 }
 
 // The time of the machine that was busy longest.
@@ -193,7 +198,7 @@ export function busiest_ms(frame) {
 }
 
 function server_rows(plan, server, frame) {
-    const links = plan.links ?? [];
+    const {links} = plan;
     const counters = frame?.machines.find(({name}) => name === `server ${server}`)?.counters ?? {};
     const rows = [['tile', `${whole(area(plan.tiles[server]))} pixels`]];
     const objects = groups_of(plan)?.[server]?.length;
@@ -203,9 +208,10 @@ function server_rows(plan, server, frame) {
         if (from === server) rows.push([`sends to ${to}`, `${whole(area(rectangles))} pixels`]);
     for (const {from, to, rectangles} of links)
         if (to === server) rows.push([`receives from ${from}`, `${whole(area(rectangles))} pixels`]);
-    const kMost = 14;
-    if (rows.length > kMost) rows.splice(kMost - 1, Infinity, ['and', plural(rows.length - kMost + 1, 'link')]);
-    if (counters.swap_pixels !== undefined) rows.push(['sent, not empty', `${whole(counters.swap_pixels)} pixels`]);
+    const left_out = rows.length - kMostRows;
+    if (left_out > 0) rows.splice(kMostRows, left_out, ['and', plural(left_out, 'link')]);
+    if (counters.swap_pixels !== undefined)
+        rows.push(['sent, not empty', `${whole(counters.swap_pixels)} pixels`]);
     if (counters.received_pixels !== undefined)
         rows.push(['received, not empty', `${whole(counters.received_pixels)} pixels`]);
     return rows;
