@@ -29,11 +29,18 @@ export class Curve {
     #tip;
     #note = null;
     #columns = [];
+    #servers = 2;
 
     constructor(canvas, tip) {
         this.#tip = tip;
         this.#chart = new Chart(canvas, (...to) => this.#paint(...to));
         tip.attach(canvas, (event) => this.#hover(event));
+    }
+
+    // How many there are: as far as the axis reaches from the beginning.
+    set servers(count) {
+        this.#servers = count;
+        this.#chart.redraw();
     }
 
     show(note) {
@@ -43,7 +50,7 @@ export class Curve {
 
     #paint(context, width, height, theme) {
         const points = this.#note?.points ?? [];
-        const most = Math.max(2, ...points.map(({servers}) => servers));
+        const most = Math.max(2, this.#servers, ...points.map(({servers}) => servers));
         const series = kSeries.map((one) => ({...one, points: speedups(points, one.field)}));
         const highest = Math.max(most, ...series.flatMap((one) => one.points.map(({speedup}) => speedup)));
         const x = (servers) => kLeft + (servers - 1) / (most - 1) * (width - kLeft - kRight);

@@ -46,7 +46,7 @@ const stage = new Stage(tip, {
     drawn: picture_drawn,
     resized: () => {
         clearTimeout(now.resize_timer);
-        now.resize_timer = setTimeout(() => now.leading && wish_size(), kResizeRestMs);
+        now.resize_timer = setTimeout(wish_size, kResizeRestMs);
     },
 });
 const gantt = new Gantt(at('gantt'), tip, show_gantt_state);
@@ -110,7 +110,7 @@ function take_over() {
     if (!numbers) return;
     now.leading = true;
     wishes.adopt(state, cameras.from_numbers(numbers));
-    wish_size();
+    wishes.set(size());
 }
 
 function take_over_soon() {
@@ -122,15 +122,18 @@ function take_over_soon() {
     }, kStateWaitMs);
 }
 
-function wish_size() {
-    if (!now.leading) return;
+function size() {
     const fixed = /^(\d+)x(\d+)$/.exec(controls.size);
     const [width, height] = fixed
         ? [Number(fixed[1]), Number(fixed[2])]
         : stage.fitting(controls.size === 'half' ? 0.5 : 1);
-    const same = (wish) => wish?.width === width && wish.height === height;
-    if (same(wishes.sent) && same(wishes.want)) return;
-    wishes.set({width, height});
+    return {width, height};
+}
+
+function wish_size() {
+    const {width, height} = size();
+    const {want} = wishes;
+    if (now.leading && (want.width !== width || want.height !== height)) wishes.set({width, height});
 }
 
 const steering = {
@@ -183,7 +186,9 @@ const kNotes = {
         if (now.session && JSON.stringify(now.session) !== JSON.stringify(note)) forget_session();
         now.session = note;
         stage.background = note.background;
-        gantt.machines = (note.servers?.length ?? 1) + 2;
+        const servers = note.servers?.length ?? 1;
+        gantt.machines = servers + 2;
+        curve.servers = servers;
         if (leads() && !now.leading) take_over_soon();
         refresh();
     },
@@ -195,7 +200,7 @@ const kNotes = {
             for (const [field, reason] of Object.entries(note.refused ?? {})) {
                 // Unless the person has chosen anew since.
                 if (wishes.since(field) > note.wish) continue;
-                if (!['width', 'height'].includes(field)) wishes.want[field] = note[field];
+                if (!['camera', 'width', 'height'].includes(field)) wishes.want[field] = note[field];
                 controls.refuse(field, reason);
             }
         refresh();

@@ -20,7 +20,7 @@ export function show_legends() {
     at('phases').replaceChildren(...kPhases.map((phase) => legend(phase, phase_colour(phase))));
     at('curve-key').replaceChildren(
         ...kSeries.map(({name, colour, line}) => legend(name, colour, line.length ? 'line dashed' : 'line')),
-        legend('ideal', '--muted', 'line dashed'));
+        legend('ideal', '--muted', 'line dotted'));
 }
 
 function legend(text, colour, kind = '') {
