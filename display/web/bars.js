@@ -1,5 +1,5 @@
-// One frame as stacked bars, a bar for each machine, like Samanta 2000, figure 8: what it spent on each phase,
-// and over it in outline what was predicted. With two streams two groups of bars on one scale.
+// One frame as stacked bars, a bar for each machine, like Samanta 2000, figure 8: what it spent on each
+// phase, and over it in outline what was predicted. With two streams two groups of bars on one scale.
 
 import {Chart, nice_step} from './chart.js';
 import {css_colour, server_colour} from './colours.js';
@@ -82,10 +82,12 @@ export class Bars {
         const pitch = Math.min((width - kLeft - gap) / all.length, 46);
         let left = kLeft + 2;
         for (const {frame, costs: bars} of this.#frames) {
-            bars.forEach((cost, place) => this.#paint_bar(context, theme, cost, left + place * pitch, pitch, y));
+            bars.forEach((cost, place) =>
+                this.#paint_bar(context, theme, cost, left + place * pitch, pitch, y));
             if (gap && frame.stream === 0) {
                 context.fillStyle = theme('--line');
-                context.fillRect(Math.round(left + bars.length * pitch + gap / 2 - 1), kTop, 1, bottom - kTop);
+                const middle = Math.round(left + bars.length * pitch + gap / 2 - 1);
+                context.fillRect(middle, kTop, 1, bottom - kTop);
             }
             left += bars.length * pitch + gap;
         }

@@ -4,8 +4,10 @@
 import {whole} from './format.js';
 
 const kNames = {
-    'mahd': 'MAHD (sort-first)', 'kd-split': 'KD-split (sort-first)', 'sort-last': 'Sort-last', 'hybrid': 'Hybrid',
-    'osmesa': 'OSMesa', 'egl': 'EGL', 'wide': 'Wide', 'a2ssb': 'A2SSB', 'adsb': 'ADSB', 'none': 'None',
+    'hybrid': 'Hybrid', 'mahd': 'MAHD (sort-first)', 'kd-split': 'KD-split (sort-first)',
+    'sort-last': 'Sort-last',
+    'osmesa': 'OSMesa', 'egl': 'EGL',
+    'wide': 'Wide', 'a2ssb': 'A2SSB', 'adsb': 'ADSB', 'none': 'None',
     'orbit': 'Orbit', 'random': 'Random',
 };
 const kRenderers = ['osmesa', 'egl'];
@@ -40,21 +42,29 @@ export class Controls {
         const choices = session?.choices ?? {};
         const many = session?.servers?.length ?? 1;
         this.#fill('algorithm', (choices.algorithms ?? []).map((name) => option(name)), values.algorithm);
-        this.#fill('against', [option(kNone, 'Nothing'), ...(choices.algorithms ?? []).map((name) =>
-            option(name, undefined, name === values.algorithm ? 'is the first' : ''))], values.against ?? kNone);
-        const counts = [...new Set([...(choices.objects ?? []), ...(values.objects ? [values.objects] : [])])];
+        this.#fill('against', [
+            option(kNone, 'Nothing'),
+            ...(choices.algorithms ?? []).map((name) =>
+                option(name, undefined, name === values.algorithm ? 'is the first' : '')),
+        ], values.against ?? kNone);
+        const counts = [...new Set([...(choices.objects ?? []), values.objects].filter(Number.isInteger))];
         this.#fill('objects', counts.sort((a, b) => a - b).map((count) =>
             option(String(count), `about ${whole(count)}`)), String(values.objects ?? ''));
-        this.#fill('renderer', [...new Set([...(choices.renderers ?? []), ...kRenderers])].map((name) =>
-            option(name, undefined, choices.renderers?.includes(name) ? '' : 'not in this build')), values.renderer);
+        const renderers = [...new Set([...(choices.renderers ?? []), ...kRenderers])];
+        this.#fill('renderer', renderers.map((name) =>
+            option(name, undefined, choices.renderers?.includes(name) ? '' : 'not in this build')),
+                   values.renderer);
         this.#fill('cull', (choices.culls ?? []).map((name) => option(name)), values.cull);
-        this.#fill('path', [option(kNone, 'None: steered'), ...(choices.paths ?? []).map((name) => option(name))],
-                   values.path ?? kNone);
+        this.#fill('path', [
+            option(kNone, 'None: steered'), ...(choices.paths ?? []).map((name) => option(name)),
+        ], values.path ?? kNone);
         this.#fill('size', [
             option('window', 'As the window'), option('half', 'Half the window'),
-            ...kSizes.map(([width, height]) => option(
-                `${width}x${height}`, `${width} × ${height}`,
-                width > choices.max_width || height > choices.max_height ? 'larger than the client allows' : '')),
+            ...kSizes.map(([width, height]) => {
+                const larger = width > choices.max_width || height > choices.max_height;
+                return option(`${width}x${height}`, `${width} × ${height}`,
+                              larger ? 'larger than the client allows' : '');
+            }),
         ], this.size);
 
         const {servers} = this.#elements;
@@ -67,8 +77,8 @@ export class Controls {
         shown.hidden = !why;
         for (const field of [...kSelects, 'servers']) {
             const element = this.#elements[field];
-            const own = field === 'servers' && many === 1 ? 'The cluster has one server' :
-                field !== 'size' && field !== 'servers' && element.options.length === 0 ? 'Not known yet' : '';
+            const own = field !== 'servers' ? (element.options.length === 0 ? 'Not known yet' : '') :
+                many === 1 ? 'The cluster has one server' : '';
             element.disabled = Boolean(why || own);
             element.title = why || own;
             const reason = this.#reasons.get(field) ?? '';

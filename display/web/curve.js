@@ -2,7 +2,7 @@
 // predicted, and ideal. And the small curve of the lag.
 
 import {Chart, nice_step} from './chart.js';
-import {decimal, times} from './format.js';
+import {decimal, plural, times} from './format.js';
 
 const kLeft = 30;
 const kBottom = 20;
@@ -29,11 +29,18 @@ export class Curve {
     #tip;
     #note = null;
     #columns = [];
+    #servers = 2;
 
     constructor(canvas, tip) {
         this.#tip = tip;
         this.#chart = new Chart(canvas, (...to) => this.#paint(...to));
         tip.attach(canvas, (event) => this.#hover(event));
+    }
+
+    // How many there are: as far as the axis reaches from the beginning.
+    set servers(count) {
+        this.#servers = count;
+        this.#chart.redraw();
     }
 
     show(note) {
@@ -43,7 +50,7 @@ export class Curve {
 
     #paint(context, width, height, theme) {
         const points = this.#note?.points ?? [];
-        const most = Math.max(2, ...points.map(({servers}) => servers));
+        const most = Math.max(2, this.#servers, ...points.map(({servers}) => servers));
         const series = kSeries.map((one) => ({...one, points: speedups(points, one.field)}));
         const highest = Math.max(most, ...series.flatMap((one) => one.points.map(({speedup}) => speedup)));
         const x = (servers) => kLeft + (servers - 1) / (most - 1) * (width - kLeft - kRight);
@@ -74,18 +81,21 @@ export class Curve {
             context.setLineDash(dash);
             line(context, list.map(({servers, speedup}) => [x(servers), y(speedup)]));
             context.setLineDash([]);
-            for (const {servers, speedup} of list) mark(context, shape, x(servers), y(speedup), theme('--surface'));
+            for (const {servers, speedup} of list)
+                mark(context, shape, x(servers), y(speedup), theme('--surface'));
         }
     }
 
     #hover(event) {
+        const off = (column) => Math.abs(column.x - event.offsetX);
         const nearest = this.#columns.reduce((best, column) =>
-            !best || Math.abs(column.x - event.offsetX) < Math.abs(best.x - event.offsetX) ? column : best, null);
+            !best || off(column) < off(best) ? column : best, null);
         if (!nearest) return this.#tip.hide();
-        this.#tip.show(event.clientX, event.clientY, nearest.servers === 1 ? '1 server' : `${nearest.servers} servers`,
+        const here = ({servers}) => servers === nearest.servers;
+        this.#tip.show(event.clientX, event.clientY, plural(nearest.servers, 'server'),
             kSeries.map(({name, field}) => {
-                const point = this.#note.points.find(({servers}) => servers === nearest.servers);
-                const quotient = speedups(this.#note.points, field).find(({servers}) => servers === nearest.servers);
+                const point = this.#note.points.find(here);
+                const quotient = speedups(this.#note.points, field).find(here);
                 return [name, quotient ? times(quotient.speedup) : '–',
                         point?.[field] > 0 ? `${decimal(point[field])} ms` : ''];
             }));

@@ -174,15 +174,15 @@ export class Gantt {
                     const left = x(span.begin);
                     const right = x(span.end);
                     if (right < kGutter || left > width) continue;
-                    const drawn = {left, right: Math.max(right, left + 0.6), top, bottom, span, machine: name, frame};
+                    const drawn = {
+                        left, right: Math.max(right, left + 0.6), top, bottom, span, machine: name, frame,
+                    };
                     this.#drawn.push(drawn);
                     if (is_wait(span.phase)) {
-                        context.fillStyle = theme('--wait-soft');
-                        fill(context, drawn);
-                        context.fillStyle = waits;
-                    } else {
-                        context.fillStyle = theme(phase_colour(span.phase));
+                        paint_wait(context, drawn, theme, waits);
+                        continue;
                     }
+                    context.fillStyle = theme(phase_colour(span.phase));
                     fill(context, drawn);
                 }
             }
@@ -223,8 +223,10 @@ export class Gantt {
                 if (!drawn) continue;
                 const {machine, left, right, top, bottom} = drawn;
                 const last = runs.at(-1);
-                if (last?.machine === machine && left - last.right < 2) last.right = Math.max(right, last.right);
-                else runs.push({machine, left, right, top, bottom});
+                if (last?.machine === machine && left - last.right < 2)
+                    last.right = Math.max(right, last.right);
+                else
+                    runs.push({machine, left, right, top, bottom});
             }
             context.lineWidth = 1.5;
             for (const {left, right, top, bottom} of runs)
@@ -280,7 +282,8 @@ export class Gantt {
         this.#tip.attach(canvas, (event) => this.#hover(event));
         canvas.addEventListener('wheel', (event) => {
             event.preventDefault();
-            if (Math.abs(event.deltaX) > Math.abs(event.deltaY)) return this.#move(event.deltaX * per_pixel());
+            if (Math.abs(event.deltaX) > Math.abs(event.deltaY))
+                return this.#move(event.deltaX * per_pixel());
             const about = (event.offsetX - kGutter) / Math.max(canvas.clientWidth - kGutter, 1);
             const factor = Math.exp(Math.min(Math.max(event.deltaY * 0.0015, -1), 1));
             // At the newest end it goes on following.
@@ -289,7 +292,8 @@ export class Gantt {
         canvas.addEventListener('keydown', (event) => {
             const {begin, end} = this.#view();
             const keys = {
-                ArrowLeft: () => this.#move((begin - end) / 8), ArrowRight: () => this.#move((end - begin) / 8),
+                ArrowLeft: () => this.#move((begin - end) / 8),
+                ArrowRight: () => this.#move((end - begin) / 8),
                 '+': () => this.zoom(0.7), '=': () => this.zoom(0.7), '-': () => this.zoom(1 / 0.7),
                 ' ': () => this.pause(!this.paused), Home: () => this.reset(),
             };
@@ -319,7 +323,8 @@ export class Gantt {
 // The way of a frame in words, with what it took; '' where it is not known.
 export function critical_summary(frame, least = 0) {
     if (!frame?.critical?.length) return '';
-    return `${ms(frame.critical.at(-1).end - frame.critical[0].begin)}: ${critical_text(frame.critical, least)}`;
+    const took = frame.critical.at(-1).end - frame.critical[0].begin;
+    return `${ms(took)}: ${critical_text(frame.critical, least)}`;
 }
 
 function extent(machines) {
@@ -328,6 +333,17 @@ function extent(machines) {
         begin: spans.reduce((least, {begin}) => Math.min(least, begin), Infinity),
         end: spans.reduce((most, {end}) => Math.max(most, end), -Infinity),
     };
+}
+
+// Thinner than work: with several frames in flight there is a lot of waiting that holds up nobody.
+function paint_wait(context, {left, right, top, bottom}, theme, pattern) {
+    const high = bottom - top;
+    const thin = Math.max(0.5 * high, Math.min(high, 1.5));
+    const strip = {left, right, top: top + (high - thin) / 2, bottom: top + (high + thin) / 2};
+    context.fillStyle = theme('--wait-soft');
+    fill(context, strip);
+    context.fillStyle = pattern;
+    fill(context, strip);
 }
 
 function fill(context, {left, right, top, bottom}) {

@@ -15,8 +15,9 @@ export function to_clip(clip, x, y, z) {
     ];
 }
 
-// The part of a line between two points in clip space that is inside the frustum, in pixels: [x0, y0, x1, y1],
-// or null. Cut before the division, so that what lies behind the eye cannot come out in front of it.
+// The part of a line between two points in clip space that is inside the frustum, in pixels:
+// [x0, y0, x1, y1], or null. Cut before the division, so that what lies behind the eye cannot come out in
+// front of it.
 export function visible_segment(a, b, width, height) {
     let first = 0;
     let last = 1;
@@ -55,7 +56,8 @@ export function wireframe(boxes, id, clip, width, height) {
     });
     const edges = [];
     if (inside) {
-        const pixels = corners.map(([x, y, , w]) => [(x / w * 0.5 + 0.5) * width, (y / w * 0.5 + 0.5) * height]);
+        const pixels = corners.map(([x, y, , w]) =>
+            [(x / w * 0.5 + 0.5) * width, (y / w * 0.5 + 0.5) * height]);
         kEdges.forEach(([from, to], place) =>
             edges.push(pixels[from][0], pixels[from][1], pixels[to][0], pixels[to][1], place));
     } else {

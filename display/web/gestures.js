@@ -10,7 +10,8 @@ const kPixelsPerLine = 20;
 
 // Steps, each with the event's time: on.orbit(across, upwards, time) in radians, on.pan(x, y, time) and
 // on.dolly(factor, at, time), on.centre(at, time) with positions as in camera.js. `area` takes the events,
-// `canvas` is where the picture lies. on.hover(x, y) gets a mouse's place on the page, on.hover(null) its leave.
+// `canvas` is where the picture lies. on.hover(x, y) gets a mouse's place on the page, on.hover(null) its
+// leave.
 export function attach_gestures(area, canvas, on) {
     const pointers = new Map();  // id to {x, y, panning}
 

@@ -46,7 +46,7 @@ const stage = new Stage(tip, {
     drawn: picture_drawn,
     resized: () => {
         clearTimeout(now.resize_timer);
-        now.resize_timer = setTimeout(() => now.leading && wish_size(), kResizeRestMs);
+        now.resize_timer = setTimeout(wish_size, kResizeRestMs);
     },
 });
 const gantt = new Gantt(at('gantt'), tip, show_gantt_state);
@@ -57,7 +57,8 @@ const controls = new Controls((field, value) => {
     if (field === 'size') return wish_size();
     // Who stops a path goes on from where it is.
     if (field === 'path' && value === null) wishes.look(current_camera());
-    wishes.set({[field]: value, ...(field === 'algorithm' && value === wishes.want.against ? {against: null} : {})});
+    wishes.set({[field]: value});
+    if (field === 'algorithm' && value === wishes.want.against) wishes.set({against: null});
     refresh();
 });
 const connection = new Connection(
@@ -104,11 +105,12 @@ function take_over() {
     if (now.leading || !leads()) return;
     const {state, session} = now;
     const drawn = stage.stream(0).plan?.camera;
-    const numbers = [state?.path ? drawn : state?.camera, drawn, state?.camera, session.home].find(cameras.is_camera);
+    const numbers = [state?.path ? drawn : state?.camera, drawn, state?.camera, session.home]
+        .find(cameras.is_camera);
     if (!numbers) return;
     now.leading = true;
     wishes.adopt(state, cameras.from_numbers(numbers));
-    wish_size();
+    wishes.set(size());
 }
 
 function take_over_soon() {
@@ -120,19 +122,25 @@ function take_over_soon() {
     }, kStateWaitMs);
 }
 
-function wish_size() {
-    if (!now.leading) return;
+function size() {
     const fixed = /^(\d+)x(\d+)$/.exec(controls.size);
-    const [width, height] = fixed ? [Number(fixed[1]), Number(fixed[2])] : stage.fitting(controls.size === 'half' ? 0.5 : 1);
-    if (wishes.sent?.width === width && wishes.sent.height === height && wishes.want.width === width &&
-        wishes.want.height === height) return;
-    wishes.set({width, height});
+    const [width, height] = fixed
+        ? [Number(fixed[1]), Number(fixed[2])]
+        : stage.fitting(controls.size === 'half' ? 0.5 : 1);
+    return {width, height};
+}
+
+function wish_size() {
+    const {width, height} = size();
+    const {want} = wishes;
+    if (now.leading && (want.width !== width || want.height !== height)) wishes.set({width, height});
 }
 
 const steering = {
     orbit: (across, upwards, time) => steer((camera) => cameras.orbit(camera, across, upwards), time),
     pan: (x, y, time) => steer((camera, within) => cameras.pan(camera, x, y, within), time),
-    dolly: (factor, place, time) => steer((camera, within) => cameras.dolly(camera, factor, place, within), time),
+    dolly: (factor, place, time) =>
+        steer((camera, within) => cameras.dolly(camera, factor, place, within), time),
     centre: (place, time) => steer((camera, within) => cameras.centre(camera, place, within), time),
 };
 
@@ -142,10 +150,8 @@ function steer(change, time) {
     if (wishes.want.path) wishes.set({path: null});
     wishes.look(change(camera, cameras.limits(now.session.bounds)), time);
     if (wishes.want.paused) hint('Paused: Step draws one frame of this view');
-    if (!controls_show_steered()) refresh();
+    if (at('path').value !== '') refresh();
 }
-
-function controls_show_steered() { return at('path').value === ''; }
 
 function reset() {
     if (!now.leading) return hint(why_not_steered());
@@ -180,7 +186,9 @@ const kNotes = {
         if (now.session && JSON.stringify(now.session) !== JSON.stringify(note)) forget_session();
         now.session = note;
         stage.background = note.background;
-        gantt.machines = (note.servers?.length ?? 1) + 2;
+        const servers = note.servers?.length ?? 1;
+        gantt.machines = servers + 2;
+        curve.servers = servers;
         if (leads() && !now.leading) take_over_soon();
         refresh();
     },
@@ -192,7 +200,7 @@ const kNotes = {
             for (const [field, reason] of Object.entries(note.refused ?? {})) {
                 // Unless the person has chosen anew since.
                 if (wishes.since(field) > note.wish) continue;
-                if (!['width', 'height'].includes(field)) wishes.want[field] = note[field];
+                if (!['camera', 'width', 'height'].includes(field)) wishes.want[field] = note[field];
                 controls.refuse(field, reason);
             }
         refresh();
@@ -216,14 +224,17 @@ const kNotes = {
     trace: ({trace}) => {
         if (!now.trace_wanted) return;
         now.trace_wanted = false;
-        save('swath-timeline.json', [typeof trace === 'string' ? trace : JSON.stringify(trace)], 'application/json');
+        save('swath-timeline.json', [JSON.stringify(trace)], 'application/json');
         refresh();
     },
 };
 
 function forget_session() {
-    Object.assign(now, {session: null, state: null, objects: null, speedup: null, frames: [null, null], others: null,
-                        leading: false, trace_wanted: false});
+    Object.assign(now, {
+        session: null, state: null, state_fresh: false, objects: null,
+        speedup: null, frames: [null, null], others: null,
+        leading: false, trace_wanted: false,
+    });
     wishes.forget();
     controls.forget();
     stage.forget();
@@ -283,9 +294,11 @@ function update_panels() {
     const frames = streams.map((stream) => now.frames[stream]).filter(Boolean);
     bars.show(frames);
     show_frames(frames, now.others);
-    show_links(streams.filter((stream) => stage.stream(stream).plan).map((stream) => ({
-        plan: stage.stream(stream).plan, frame: now.frames[stream], title: stage.split ? `${'AB'[stream]} ` : '',
-    })));
+    show_links(streams.map((stream) => ({
+        plan: stage.stream(stream).plan,
+        frame: now.frames[stream],
+        title: stage.split ? `${'AB'[stream]} ` : '',
+    })).filter(({plan}) => plan));
     if (gantt.paused) return;
     const lines = streams.map((stream) => {
         const title = `Critical path${stage.split ? ` ${'AB'[stream]}` : ''}, `;
@@ -297,19 +310,21 @@ function update_panels() {
         element.textContent = lines[place]?.short ?? '';
         element.title = lines[place]?.whole ?? '';
     });
-    at('gantt').setAttribute('aria-label', ['Gantt chart of the last frames', ...lines.map((line) => line?.whole)]
-        .filter(Boolean).join('. '));
+    const title = ['Gantt chart of the last frames', ...lines.map((line) => line?.whole)];
+    at('gantt').setAttribute('aria-label', title.filter(Boolean).join('. '));
 }
 
 function situation() {
     const {connected, audience, session, state} = now;
     if (!connected)
-        return {state: 'bad', text: now.was_connected ? 'Connection lost; trying again' : 'Connecting',
-                notice: now.was_connected ? ['Connection lost', 'Trying again by itself.'] : ['Connecting', '']};
+        return now.was_connected
+            ? {state: 'bad', text: 'Connection lost; trying again',
+               notice: ['Connection lost', 'Trying again by itself.']}
+            : {state: 'busy', text: 'Connecting', notice: ['Connecting', '']};
     if (!audience) return {state: 'busy', text: 'Connecting'};
     if (!audience.session || !session)
         return {state: 'busy', text: 'Waiting for a client',
-                notice: ['Waiting for a client', 'Pictures come as soon as a client begins a run with this display.']};
+                notice: ['Waiting for a client', 'Pictures come when one begins a run with this display.']};
     const others = audience.viewers > 1 ? `; ${plural(audience.viewers, 'viewer')}` : '';
     if (!session.live)
         return {state: 'good', text: `${why_not_steered()}${others}`};
@@ -393,7 +408,8 @@ function pause() {
 
 const camera_numbers = () => {
     const steered = now.leading && !wishes.want.path ? cameras.to_numbers(wishes.camera) : null;
-    return [steered, stage.stream(0).plan?.camera, now.state?.camera, now.session?.home].find(cameras.is_camera) ?? null;
+    return [steered, stage.stream(0).plan?.camera, now.state?.camera, now.session?.home]
+        .find(cameras.is_camera) ?? null;
 };
 const camera_text = () => {
     const numbers = camera_numbers();
@@ -429,7 +445,8 @@ at('save-timeline').addEventListener('click', () => {
 at('copy-command').addEventListener('click', async () =>
     hint(await copy(at('command')) ? 'Copied' : 'Select the text and copy it'));
 at('help').addEventListener('click', () => at('help-dialog').showModal());
-for (const details of document.querySelectorAll('.panel details')) details.addEventListener('toggle', update_panels);
+for (const details of document.querySelectorAll('.panel details'))
+    details.addEventListener('toggle', update_panels);
 
 const kKeys = {
     t: () => toggle('tiles'), g: () => toggle('groups'), b: () => toggle('boxes'), s: () => toggle('swaths'),
@@ -440,7 +457,8 @@ const kKeys = {
 };
 
 document.addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || at('help-dialog').open) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    if (at('help-dialog').open) return;
     // Where keys mean something of their own they keep it.
     if (event.target.closest('select, input, textarea, .scroll')) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;

@@ -6,7 +6,8 @@ const kCritical = ['machine', 'phase', 'begin', 'end'];
 const kPoint = ['servers', 'interval', 'busiest_cpu', 'predicted'];
 
 function named(value, fields) {
-    return Array.isArray(value) ? Object.fromEntries(fields.map((field, place) => [field, value[place]])) : value;
+    if (!Array.isArray(value)) return value;
+    return Object.fromEntries(fields.map((field, place) => [field, value[place]]));
 }
 
 const list = (value) => Array.isArray(value) ? value : [];

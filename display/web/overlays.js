@@ -9,6 +9,9 @@ const kDim = 0.4;  // black over the model: 0.6 of its brightness remain
 const kTint = 0.32;
 const kBehind = 0.3;  // what a box leaves of the lines behind it
 const kSlices = 24;
+// Boxes: more would hold up the pictures, or the page at all.
+export const kMostWhileMoving = 4000;
+export const kMostBoxes = 12000;
 const kWhitePerTransfer = 0.45;
 const kWhitest = 0.9;
 const kReplicated = {colour: 'rgb(255 196 46)', opacity: 0.95};
@@ -42,7 +45,7 @@ export function draw_overlays(canvas, plan, objects, show, hot = null, at_rest =
     if (show.has('swaths')) draw.swaths();
     if (show.has('tiles') || show.has('swaths') || show.has('overlap')) draw.borders();
     const boxes = objects?.generation === plan.generation ? objects.boxes : null;
-    if (boxes && plan.clip?.length === 16) {
+    if (boxes && objects.count <= kMostBoxes && plan.clip?.length === 16) {
         const servers = servers_by_object(plan);
         if (show.has('boxes')) draw.boxes(boxes, () => [kBoxes.colour], kBoxes.opacity);
         if (show.has('groups') && servers) {
@@ -129,10 +132,12 @@ class Layers {
             const frame = colours?.length ? wireframe(boxes, id, clip, width, height) : null;
             if (frame) frames.push({...frame, colours});
         }
+        if (!this.#at_rest && frames.length > kMostWhileMoving) return;
         frames.sort((a, b) => b.depth - a.depth);
         const layer = this.#layer();
         // Browsers draw lines of one pixel several times as fast as any others.
-        layer.lineWidth = this.#at_rest ? Math.max(1, this.#width / 900) : 1;
+        const fine = this.#at_rest && frames.length <= kMostWhileMoving;
+        layer.lineWidth = fine ? Math.max(1, this.#width / 900) : 1;
         const size = Math.ceil(frames.length / kSlices);
         for (let begin = 0; begin < frames.length; begin += size)
             this.#slice(layer, frames.slice(begin, begin + size));

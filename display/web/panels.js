@@ -20,7 +20,7 @@ export function show_legends() {
     at('phases').replaceChildren(...kPhases.map((phase) => legend(phase, phase_colour(phase))));
     at('curve-key').replaceChildren(
         ...kSeries.map(({name, colour, line}) => legend(name, colour, line.length ? 'line dashed' : 'line')),
-        legend('ideal', '--muted', 'line dashed'));
+        legend('ideal', '--muted', 'line dotted'));
 }
 
 function legend(text, colour, kind = '') {
@@ -35,10 +35,11 @@ function legend(text, colour, kind = '') {
 // The newest `frame` note of each stream that is shown; `others` the newest list of other algorithms.
 export function show_frames(frames, others) {
     const first = frames[0];
-    set_text('frame-note', first ? `${first.frame} · ${frames.map(({algorithm}) => algorithm).join(' and ')}` : '');
+    const algorithms = frames.map(({algorithm}) => algorithm).join(' and ');
+    set_text('frame-note', first ? `${first.frame} · ${algorithms}` : '');
     set_text('prediction-state', !first ? '' : first.prediction
         ? `: ${frames.map((frame) => frame.prediction ? ms(frame.prediction.frame) : '–').join(' and ')}`
-        : '; not known yet');
+        : ': not known yet');
     if (!first) {
         at('frame-table').tHead?.remove();
         at('frame-table').tBodies[0]?.remove();
@@ -55,7 +56,9 @@ export function show_frames(frames, others) {
         fill_table(at('frame-table'), ['ms', ...columns.map(({title}) => title)], [
             ...phases.flatMap((phase) => [
                 [phase, ...columns.map(({measured}) => value(measured, phase))],
-                ...(known ? [[`${phase}, predicted`, ...columns.map(({predicted}) => value(predicted, phase))]] : []),
+                ...(known ? [[
+                    `${phase}, predicted`, ...columns.map(({predicted}) => value(predicted, phase)),
+                ]] : []),
             ]),
             ['all', ...columns.map(({measured}) => decimal(total(measured)))],
             ...(known ? [['all, predicted', ...columns.map(({predicted}) =>
@@ -64,8 +67,9 @@ export function show_frames(frames, others) {
             ...counted.map((counter) => [counter.replaceAll('_', ' '), ...columns.map(({counters}) =>
                 counters[counter] === undefined ? '' : whole(counters[counter]))]),
         ]);
+    const spent = columns.map(({name, measured}) => `${name} ${ms(total(measured))}`);
     at('bars').setAttribute('aria-label', first
-        ? `What each machine spent: ${columns.map(({name, measured}) => `${name} ${ms(total(measured))}`).join(', ')}`
+        ? `What each machine spent: ${spent.join(', ')}`
         : 'What each machine spent on each phase; no frames yet');
     show_others(others, first);
 }
@@ -118,10 +122,11 @@ export function show_links(streams) {
     if (!at('link-matrix').closest('details').open) return;
     const plan = streams[0]?.plan;
     const count = plan?.tiles.length ?? 0;
-    const pixels = new Map((plan?.links ?? []).map(({from, to, rectangles}) => [from * count + to, area(rectangles)]));
+    const pixels = new Map((plan?.links ?? []).map(({from, to, rectangles}) =>
+        [from * count + to, compact(area(rectangles))]));
     const servers = [...Array(count).keys()];
     fill_table(at('link-matrix'), ['from, to', ...servers.map(String)], servers.map((from) => [
-        String(from), ...servers.map((to) => pixels.has(from * count + to) ? compact(pixels.get(from * count + to)) : ''),
+        String(from), ...servers.map((to) => pixels.get(from * count + to) ?? ''),
     ]));
     colour_rows(at('link-matrix'), servers);
 }

@@ -1,8 +1,8 @@
 // What machines can be doing, in the order of a frame, and how charts show it.
 
 export const kPhases = [
-    'partition', 'cull', 'render', 'pixel read', 'swap', 'pixel write', 'final read', 'send', 'assemble', 'encode',
-    'wait',
+    'partition', 'cull', 'render', 'pixel read', 'swap', 'pixel write', 'final read', 'send', 'assemble',
+    'encode', 'wait',
 ];
 
 export const is_wait = (phase) => phase === 'wait';

@@ -3,10 +3,11 @@
 
 import {compact, plural, times, whole} from './format.js';
 import {area, owner_at} from './geometry.js';
-import {draw_overlays, groups_of} from './overlays.js';
+import {draw_overlays, groups_of, kMostBoxes, kMostWhileMoving} from './overlays.js';
 import {Stream} from './stream.js';
 
 const kSmallest = 16;  // pixels, of a picture that is asked for
+const kMostRows = 14;  // of a tip
 
 export class Stage {
     #cells;
@@ -30,7 +31,8 @@ export class Stage {
                     on.drawn(number, stream);
                 },
             });
-            return {element, overlay, stream, caption: document.getElementById(`caption-${number}`), box: [0, 0]};
+            const caption = document.getElementById(`caption-${number}`);
+            return {element, overlay, stream, caption, box: [0, 0]};
         });
         const observer = new ResizeObserver((entries) => {
             for (const entry of entries) {
@@ -134,7 +136,8 @@ export class Stage {
         const {width, height} = stream.size();
         if (!stream.drawn || box[0] === 0) return;
         const scale = Math.min(box[0] / width, box[1] / height);
-        const exact = Math.abs(scale - 1) * Math.max(width, height) < 2 && width <= box[0] && height <= box[1];
+        const fits = width <= box[0] && height <= box[1];
+        const exact = fits && (scale - 1) * Math.max(width, height) < 2;
         const pixels = exact ? [width, height] : [width, height].map((length) => Math.round(length * scale));
         const corner = pixels.map((length, axis) => Math.floor((box[axis] - length) / 2));
         for (const {style} of [stream.canvas, overlay]) {
@@ -144,6 +147,16 @@ export class Stage {
         }
         if (overlay.width !== pixels[0]) overlay.width = pixels[0];
         if (overlay.height !== pixels[1]) overlay.height = pixels[1];
+    }
+
+    // Why boxes that are wanted are not there, or nothing.
+    #why_no_boxes(plan, format) {
+        const {boxes, count, generation} = this.#objects ?? {};
+        if (generation !== plan.generation) return ['boxes are on their way'];
+        if (!boxes || count > kMostBoxes) return [`${plural(count, 'object')}: too many for boxes`];
+        if (count > kMostWhileMoving && format !== 'png') return ['boxes when it rests'];
+        const needs_groups = this.#show.has('groups') || this.#show.has('overlap');
+        return needs_groups && !plan.groups ? ['too many objects for groups'] : [];
     }
 
     #write_caption(number) {
@@ -156,28 +169,26 @@ export class Stage {
             const busiest = note ? busiest_ms(note) : 0;
             if (busiest > 0) parts.push(`busiest ${whole(busiest)} ms`);
         }
-        if (plan && (this.split || this.#show.has('overlap'))) parts.push(`overlap ${times(plan.overlap ?? 1)}`);
+        if (plan && (this.split || this.#show.has('overlap')))
+            parts.push(`overlap ${times(plan.overlap ?? 1)}`);
         if (plan && (this.split || this.#show.has('swaths')))
-            parts.push(`swaths ${compact(plan.links?.reduce((sum, link) => sum + area(link.rectangles), 0) ?? 0)}`);
-        if (plan && ['groups', 'boxes', 'overlap'].some((layer) => this.#show.has(layer))) {
-            if (this.#objects && !this.#objects.boxes)
-                parts.push(`${plural(this.#objects.count, 'object')}: too many for boxes`);
-            else if (this.#objects?.generation !== plan.generation) parts.push('boxes are on their way');
-            else if (!plan.groups && !(this.#show.size === 1 && this.#show.has('boxes'))) parts.push('too many objects for groups');
-        }
+            parts.push(`swaths ${compact(plan.links.reduce((sum, link) => sum + area(link.rectangles), 0))}`);
+        if (plan && ['groups', 'boxes', 'overlap'].some((layer) => this.#show.has(layer)))
+            parts.push(...this.#why_no_boxes(plan, stream.drawn.header.format));
         const text = parts.join(' · ');
         if (caption.textContent !== text) caption.textContent = text;
         caption.hidden = text === '';
     }
 }
 
-// The exact number of device pixels, which only this box knows where the pixel ratio is no whole number; unless
-// it contradicts the ratio, as it does while a browser plays another device.
+// The exact number of device pixels, which only this box knows where the pixel ratio is no whole number;
+// unless it contradicts the ratio, as it does while a browser plays another device.
 function device_pixels({contentRect, devicePixelContentBoxSize}) {
     const computed = [contentRect.width, contentRect.height].map((length) => length * devicePixelRatio);
     const exact = devicePixelContentBoxSize?.[0];
     const pixels = exact ? [exact.inlineSize, exact.blockSize] : computed;
-    return pixels.map((count, axis) => Math.abs(count - computed[axis]) <= 1 ? count : Math.floor(computed[axis]));
+    return pixels.map((count, axis) =>
+        Math.abs(count - computed[axis]) <= 1 ? count : Math.floor(computed[axis]));
 }
 
 // The time of the machine that was busy longest.
@@ -187,7 +198,7 @@ export function busiest_ms(frame) {
 }
 
 function server_rows(plan, server, frame) {
-    const links = plan.links ?? [];
+    const {links} = plan;
     const counters = frame?.machines.find(({name}) => name === `server ${server}`)?.counters ?? {};
     const rows = [['tile', `${whole(area(plan.tiles[server]))} pixels`]];
     const objects = groups_of(plan)?.[server]?.length;
@@ -197,9 +208,10 @@ function server_rows(plan, server, frame) {
         if (from === server) rows.push([`sends to ${to}`, `${whole(area(rectangles))} pixels`]);
     for (const {from, to, rectangles} of links)
         if (to === server) rows.push([`receives from ${from}`, `${whole(area(rectangles))} pixels`]);
-    const kMost = 14;
-    if (rows.length > kMost) rows.splice(kMost - 1, Infinity, ['and', plural(rows.length - kMost + 1, 'link')]);
-    if (counters.swap_pixels !== undefined) rows.push(['sent, not empty', `${whole(counters.swap_pixels)} pixels`]);
+    const left_out = rows.length - kMostRows;
+    if (left_out > 0) rows.splice(kMostRows, left_out, ['and', plural(left_out, 'link')]);
+    if (counters.swap_pixels !== undefined)
+        rows.push(['sent, not empty', `${whole(counters.swap_pixels)} pixels`]);
     if (counters.received_pixels !== undefined)
         rows.push(['received, not empty', `${whole(counters.received_pixels)} pixels`]);
     return rows;

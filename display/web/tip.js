@@ -29,7 +29,8 @@ export class Tip {
         const {offsetWidth: width, offsetHeight: height} = this.#box;
         const left = x + 14 + width > innerWidth - 4 ? x - 14 - width : x + 14;
         const top = y + 14 + height > innerHeight - 4 ? y - 14 - height : y + 14;
-        this.#box.style.transform = `translate(${Math.max(Math.round(left), 4)}px, ${Math.max(Math.round(top), 4)}px)`;
+        const [at_x, at_y] = [left, top].map((at) => Math.max(Math.round(at), 4));
+        this.#box.style.transform = `translate(${at_x}px, ${at_y}px)`;
     }
 
     hide() { this.#box.hidden = true; }

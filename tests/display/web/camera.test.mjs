@@ -152,6 +152,7 @@ test('every single-precision number survives its text', () => {
 
 test('what is not ten finite numbers is no camera', () => {
     assert.ok(cameras.is_camera(cameras.to_numbers(home)));
-    for (const wrong of [null, undefined, [], [1, 2], Array(10).fill('1'), Array(10).fill(NaN), Array(11).fill(1)])
+    const ten = (value) => Array(10).fill(value);
+    for (const wrong of [null, undefined, [], [1, 2], ten('1'), ten(NaN), Array(11).fill(1)])
         assert.ok(!cameras.is_camera(wrong));
 });

@@ -6,7 +6,8 @@ import {read_frame, read_plan, read_speedup} from '../../../display/web/notes.js
 import {by_phase, critical_text, server_number} from '../../../display/web/phases.js';
 
 test('servers have the colours of the simulator\'s pictures', () => {
-    assert.deepEqual([0, 1, 2, 15].map(server_colour), [[0, 197, 171], [156, 118, 0], [255, 139, 172], [131, 99, 198]]);
+    assert.deepEqual([0, 1, 2, 15].map(server_colour),
+                     [[0, 197, 171], [156, 118, 0], [255, 139, 172], [131, 99, 198]]);
 });
 
 test('what is written on a colour can be read', () => {
@@ -25,8 +26,8 @@ test('spans and links come as lists and get names', () => {
 
 test('what notes lack is empty, and what is of no use is left out', () => {
     assert.deepEqual(read_frame({stream: 0}).machines, []);
-    assert.deepEqual(read_frame({stream: 0, machines: [{name: 'display', spans: [['wait', 5, 4], ['wait', 'x', 1]]}]})
-        .machines[0].spans, []);
+    const backwards = {name: 'display', spans: [['wait', 5, 4], ['wait', 'x', 1]]};
+    assert.deepEqual(read_frame({stream: 0, machines: [backwards]}).machines[0].spans, []);
     assert.equal(read_frame({stream: 2, machines: []}), null);
     assert.equal(read_plan(null), null);
     assert.equal(read_plan({tiles: [], width: 0, height: 1}), null);
