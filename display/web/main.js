@@ -349,6 +349,7 @@ function refresh() {
     stage.split = Boolean(values.against);
 
     at('model').textContent = session ? `${session.model} · ${compact(session.triangles)} triangles` : '';
+    at('model').title = at('model').textContent;  // whole, where the line is cut
     document.title = session ? `${session.model} · Swath` : 'Swath';
     at('picture-0').setAttribute('aria-label', session ? `Picture of ${session.model}` : 'Picture');
 
