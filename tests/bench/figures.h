@@ -68,5 +68,6 @@ Status bench_swap(Figures& figures, const Effort& effort);
 Status bench_load(Figures& figures, const Effort& effort);
 Status bench_peers(Figures& figures, const Effort& effort);
 Status bench_simulator(Figures& figures, const Effort& effort);
+Status bench_viewer(Figures& figures, const Effort& effort);
 
 }  // namespace swath::bench

@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
                                                       {"load", {bench::bench_load}},
                                                       {"peers", {bench::bench_peers}},
                                                       {"simulator", {bench::bench_simulator}},
-                                                      {"swap", {bench::bench_swap}}};
+                                                      {"swap", {bench::bench_swap}},
+                                                      {"viewer", {bench::bench_viewer}}};
     std::string name;
     std::string json;
     std::string out;
@@ -36,11 +37,12 @@ int main(int argc, char** argv) {
         "  load       reading the Dragon and cutting it into objects\n"
         "  peers      ours beside IceT's and OpenSceneGraph's on the Dragon\n"
         "  simulator  all of the paper's Table 1, events and partitions a second\n"
-        "  swap       bytes a swapped pixel takes, and how fast pixels are merged\n"};
+        "  swap       bytes a swapped pixel takes, and how fast pixels are merged\n"
+        "  viewer     what somebody who looks costs, and what they get: pictures a second, lag\n"};
     app.add_option("NAME", name, "which")
         ->required()
-        ->check(
-            CLI::IsMember({"cluster", "culling", "culling-render", "load", "peers", "simulator", "swap"}));
+        ->check(CLI::IsMember(
+            {"cluster", "culling", "culling-render", "load", "peers", "simulator", "swap", "viewer"}));
     app.add_option("--json", json, "write {\"figures\": {name: number}} to this file");
     app.add_option("--out", out, "culling: also draw plots, into this folder, with their numbers as CSV");
     app.add_flag("--smoke", smoke,
