@@ -59,8 +59,8 @@ class LiveView {
     const LiveSetup& setup() const { return setup_; }  // in effect
     Refusals refused() const;
     const CameraNumbers& home() const { return settings_.start.camera; }
-    // The camera of the newest order, else the wish's.
-    const CameraNumbers& camera() const { return shown_; }
+    // The wish's; while a path plays, that of the newest order.
+    const CameraNumbers& camera() const { return path_.empty() ? wish_.camera : shown_; }
     std::uint32_t viewers() const { return viewers_; }
     // Counts speed-up measurements; a new one makes the figures of the last one stale.
     std::size_t measurement() const { return measurement_; }

@@ -54,14 +54,20 @@ void RawConnection::send(const std::string& bytes) const {
 }
 
 std::string RawConnection::read_to_end(std::chrono::milliseconds limit) const {
+    return read_until([](std::string_view) { return false; }, limit);
+}
+
+std::string RawConnection::read_until(const std::function<bool(std::string_view)>& is_complete,
+                                      std::chrono::milliseconds limit) const {
     std::string all;
-    std::array<char, 4096> piece;
-    for (;;) {
+    std::array<char, 65536> piece;
+    while (!is_complete(all)) {
         wait_readable(fd_, limit, "the other end did not close");
         const ssize_t got = ::recv(fd_, piece.data(), piece.size(), 0);
-        if (got <= 0) return all;  // a reset is an end, too
+        if (got <= 0) break;  // a reset is an end, too
         all.append(piece.data(), static_cast<std::size_t>(got));
     }
+    return all;
 }
 
 RawListener::RawListener() : fd_(make_socket()) {

@@ -1,7 +1,9 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace swath::test {
 
@@ -19,6 +21,9 @@ class RawConnection {
     void send(const std::string& bytes) const;
     // What the other end sends until it closes.
     std::string read_to_end(std::chrono::milliseconds limit) const;
+    // ... or until all of that is complete.
+    std::string read_until(const std::function<bool(std::string_view all)>& is_complete,
+                           std::chrono::milliseconds limit) const;
 
   private:
     int fd_;

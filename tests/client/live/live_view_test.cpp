@@ -96,6 +96,11 @@ TEST_F(LiveViewTest, DrawsEveryCameraTwiceToCompareTwoAlgorithms) {
     EXPECT_FALSE(live_.wants_frame());
 }
 
+TEST_F(LiveViewTest, TellsTheWishedCameraAtOnceAndNotWhenItIsDrawn) {
+    wish(R"({"camera":[1,2,3,0,0,0,0,1,0,40]})");
+    EXPECT_EQ(live_.camera(), (CameraNumbers{1, 2, 3, 0, 0, 0, 0, 1, 0, 40}));
+}
+
 TEST_F(LiveViewTest, PlaysAPathRoundAndRoundWithCamerasThatAFileCanHold) {
     live_.on_viewers(1);
     draw_all();

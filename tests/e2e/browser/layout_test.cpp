@@ -1,0 +1,198 @@
+// How the page looks and whom it lets in: sizes, colour schemes, keys, accessibility.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "tests/e2e/browser/live_page.h"
+
+namespace swath::test {
+namespace {
+
+using nlohmann::json;
+using testing::IsEmpty;
+
+struct Look {
+    std::string name;
+    Viewport viewport;
+};
+void PrintTo(const Look& look, std::ostream* out) { *out << look.name; }
+
+const std::vector<Look> kLooks{
+    {"LaptopDark", {1280, 800, 1, true}},     {"LaptopLight", {1280, 800, 1, false}},
+    {"DesktopDark", {1920, 1080, 1, true}},   {"DesktopLight", {1920, 1080, 1, false}},
+    {"PhoneDark", {390, 844, 2, true, true}}, {"PhoneLight", {390, 844, 2, false, true}},
+};
+
+// What is wrong with the layout, as sentences. Runs in the page.
+constexpr const char* kLayoutFaults = R"js((() => {
+    const faults = [];
+    const name = (e) => `<${e.tagName.toLowerCase()}${e.id ? ` id=${e.id}` : ''}> "${(e.textContent || e.value || '').trim().slice(0, 30)}"`;
+    const root = document.documentElement;
+    if (root.scrollWidth > innerWidth) faults.push(`the page is ${root.scrollWidth} wide, the window ${innerWidth}`);
+
+    // For screen readers only, or closed.
+    const unseen = (e) => !e.checkVisibility({visibilityProperty: true, contentVisibilityAuto: true}) ||
+        e.closest('.hidden, [hidden], dialog:not([open])') !== null;
+    const scrolls = (e) => e && e !== root && e !== document.body &&
+        (/auto|scroll/.test(getComputedStyle(e).overflowX) ? e : scrolls(e.parentElement));
+
+    // Text is within the window and not cut off.
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    while (walker.nextNode()) {
+        const e = walker.currentNode.parentElement;
+        if (!walker.currentNode.data.trim() || unseen(e) || e.closest('script, noscript, option, textarea, svg')) continue;
+        const range = document.createRange();
+        range.selectNodeContents(walker.currentNode);
+        const box = range.getBoundingClientRect();
+        if (!scrolls(e) && (box.left < -1 || box.right > innerWidth + 1)) faults.push(`${name(e)} leaves the window`);
+        for (let a = e; a && a !== document.body; a = a.parentElement) {
+            const style = getComputedStyle(a);
+            const inner = a.getBoundingClientRect();
+            // An ellipsis says that something is missing, and the title has it.
+            if (style.textOverflow === 'ellipsis' && a.title) break;
+            if (/hidden|clip/.test(style.overflowX) && (box.left < inner.left - 1 || box.right > inner.right + 1)) {
+                faults.push(`${name(e)} is cut off by ${name(a)}`);
+                break;
+            }
+            if (/auto|scroll/.test(style.overflowX)) break;
+        }
+    }
+
+    // Controls can be reached with a pointer and do not overlap.
+    const controls = [...document.querySelectorAll('button, select, input, textarea, summary, canvas[tabindex]')]
+        .filter((e) => !unseen(e));
+    for (const e of controls) {
+        e.scrollIntoView({block: 'nearest'});
+        const box = e.getBoundingClientRect();
+        if (box.width < 16 || box.height < 16) faults.push(`${name(e)} is ${box.width} x ${box.height}`);
+        const hit = document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
+        const over_picture = e.id.startsWith('picture-') && hit?.closest('.cell') === e.closest('.cell');
+        if (!hit || !(e.contains(hit) || hit.contains(e) && hit.tagName === 'LABEL' || over_picture))
+            faults.push(`${name(e)} lies under ${hit ? name(hit) : 'nothing: outside the window'}`);
+    }
+    for (const [i, a] of controls.entries())
+        for (const b of controls.slice(i + 1)) {
+            const p = a.getBoundingClientRect(), q = b.getBoundingClientRect();
+            const across = Math.min(p.right, q.right) - Math.max(p.left, q.left);
+            const down = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+            if (across > 1 && down > 1 && !scrolls(a) && !scrolls(b)) faults.push(`${name(a)} overlaps ${name(b)}`);
+        }
+    scrollTo(0, 0);
+    return faults;
+})())js";
+
+class LiveLayout : public LivePage, public testing::WithParamInterface<Look> {
+  protected:
+    // With every part of the page filled: frames, predictions, a measured speed-up.
+    void start_full_view() {
+        start_view(GetParam().viewport, {"--local", "3"});
+        browser().click("#measure");
+        wait_until(
+            "!document.getElementById('measure').disabled && "
+            "document.querySelectorAll('#curve-table tbody tr').length === 3");
+        choose("path", "orbit");
+        wait_until("document.querySelectorAll('#frame-table tbody tr').length > 1");
+        choose("path", "");
+        wait_for_window_size();
+        browser().evaluate("scrollTo(0, 0)");
+    }
+    std::vector<std::string> faults() { return browser().evaluate(kLayoutFaults); }
+};
+
+TEST_P(LiveLayout, NothingIsCutOffOrOverlaps) {
+    start_full_view();
+    EXPECT_THAT(faults(), IsEmpty());
+    keep_screenshot("page_" + GetParam().name);
+    press_down("show-tiles", true);
+    press_down("show-swaths", true);
+    choose("against", "mahd");
+    wait_for_window_size();
+    EXPECT_THAT(faults(), IsEmpty());
+    keep_screenshot("page_" + GetParam().name + "_side_by_side");
+    browser().click("#help");
+    wait_until("document.getElementById('help-dialog').open");
+    EXPECT_EQ(browser().evaluate("document.documentElement.scrollWidth <= innerWidth"), true);
+    keep_screenshot("page_" + GetParam().name + "_help");
+    browser().press(kEscapeKey);
+    wait_until("!document.getElementById('help-dialog').open");
+    expect_exact();
+}
+
+TEST_P(LiveLayout, IsAccessible) {
+    const std::string axe = contents(SWATH_AXE);
+    if (axe.empty()) GTEST_SKIP() << "no axe-core (script/bootstrap --dev installs it where npm is)";
+    start_full_view();
+    browser().evaluate("eval(argument)", axe);
+    for (const char* part : {"the page", "side by side", "help"}) {
+        if (part == std::string("side by side")) {
+            choose("against", "mahd");
+            press_down("show-tiles", true);
+            wait_for_window_size();
+        }
+        if (part == std::string("help")) browser().click("#help");
+        const json violations = browser().evaluate(
+            "(await axe.run()).violations.map(({id, help, nodes}) => `${id}: ${help}: ${nodes.map(({target}) "
+            "=> "
+            "target).join('; ')}`)");
+        EXPECT_THAT(violations.get<std::vector<std::string>>(), IsEmpty()) << part;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, LiveLayout, testing::ValuesIn(kLooks),
+                         [](const auto& look) { return look.param.name; });
+
+class LiveKeys : public LivePage {
+  protected:
+    struct Focus {
+        std::string name;
+        bool visible = false;
+    };
+    Focus focus() {
+        const json at = browser().evaluate(R"js((() => {
+            const e = document.activeElement, style = getComputedStyle(e);
+            const outlined = style.outlineStyle !== 'none' && parseFloat(style.outlineWidth) > 0;
+            return [window.names(e), outlined || style.boxShadow !== 'none'];
+        })())js");
+        return {at[0], at[1]};
+    }
+};
+
+TEST_F(LiveKeys, TabReachesEveryControlWithVisibleFocus) {
+    start_view();
+    const json expected = browser().evaluate(R"js((() => {
+        const can = [...document.querySelectorAll('button, select, input, textarea, summary, [tabindex="0"]')]
+            .filter((e) => !e.disabled && e.checkVisibility() && !e.closest('dialog:not([open])'));
+        window.names = (e) => e.id || `${e.tagName} ${can.indexOf(e)}`;
+        return can.map(names);
+    })())js");
+    std::set<std::string> reached;
+    for (std::size_t i = 0; i < expected.size() + 20; ++i) {
+        browser().press(kTabKey);
+        const Focus at = focus();
+        if (at.name.starts_with("BODY")) continue;
+        EXPECT_TRUE(at.visible) << at.name << " has the focus and does not show it";
+        reached.insert(at.name);
+    }
+    for (const json& name : expected) EXPECT_TRUE(reached.contains(name)) << name << " is not reached";
+}
+
+TEST_F(LiveKeys, ArrowsSteerAndKeysSwitchWithoutAMouse) {
+    start_view();
+    browser().evaluate("document.getElementById('picture-0').focus()");
+    const json before = drawn().plan.at("camera");
+    for (const std::string& key : {kLeftKey, kUpKey}) browser().press(key);
+    wait_for_rest();
+    EXPECT_NE(drawn().plan.at("camera"), before);
+    expect_exact();
+    browser().press("t");
+    EXPECT_EQ(browser().evaluate("document.getElementById('show-tiles').getAttribute('aria-pressed')"),
+              "true");
+    browser().press("?");
+    wait_until("document.getElementById('help-dialog').open");
+    browser().press(kEnterKey);
+    wait_until("!document.getElementById('help-dialog').open");
+}
+
+}  // namespace
+}  // namespace swath::test
