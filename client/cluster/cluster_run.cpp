@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "client/cost/frame_work.h"
 #include "common/base/check.h"
 #include "common/scene/model_blob.h"
 #include "common/timeline/phase_timer.h"
@@ -270,12 +271,10 @@ Status ClusterRun::issue(FrameNumber number) {
 
     AssembleFrame assemble{number, order.width, order.height, job_.background, {}, order.stream};
     std::vector<RenderFrame> tasks(plan.servers.size());
-    std::uint64_t drawn = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         const ServerShare& share = plan.servers[i];
         tasks[i] = {number, view, share.group, share.content, final_region(plan, server_id(i)), {}, {}};
         if (!tasks[i].final_region.empty()) assemble.tiles.push_back({server_id(i), tasks[i].final_region});
-        for (const ObjectId id : share.group) drawn += job_.scene->objects[id].triangle_count;
     }
     for (Transfer& t : transfers(plan)) {
         tasks[index(t.from)].outgoing.push_back({t.to, t.region});
@@ -285,8 +284,7 @@ Status ClusterRun::issue(FrameNumber number) {
     OpenFrame& frame = frames_[number];
     FrameTimeline& timeline = frame.finished.timeline;
     timeline.frame = number;
-    timeline.overlap_factor =
-        static_cast<double>(drawn) / static_cast<double>(job_.scene->mesh.triangle_count());
+    timeline.overlap_factor = overlap_factor(plan, job_.scene->objects);
     timeline.machines.resize(1 + peers_.size());
     timeline.machines[0].machine = "client";
     for (std::size_t i = 0; i < peers_.size(); ++i)
@@ -458,7 +456,9 @@ Status ClusterRun::on_changed(const Ready& ready) {
 Status ClusterRun::end_change(const std::string& refused) {
     auto scene = std::exchange(next_scene_, nullptr);
     if (refused.empty()) {
-        drawing_ = {scene->depth, next_setup_.renderer, next_setup_.cull};
+        const Drawing before =
+            std::exchange(drawing_, {scene->depth, next_setup_.renderer, next_setup_.cull});
+        if (drawing_.renderer != before.renderer || drawing_.cull != before.cull) broadcast_.on_drawing();
         if (scene != job_.scene) use(std::move(scene));
         live_->on_setup(next_setup_);
     } else {

@@ -5,6 +5,8 @@
 namespace swath {
 namespace {
 
+// A person reads no faster; partitioning by all algorithms is work.
+constexpr Nanoseconds kBetweenComparisons = std::chrono::milliseconds(250);
 constexpr Nanoseconds kRest = std::chrono::seconds(1);  // between two frames that do not follow one another
 
 }  // namespace
@@ -33,6 +35,7 @@ void Broadcast::on_session(SessionFacts facts, const LiveView* live, const WishL
 void Broadcast::on_scene(std::shared_ptr<const ObjectSet> scene) {
     scene_ = std::move(scene);
     ++generation_;
+    partitioners_.clear();
     tell_objects();
 }
 
@@ -55,12 +58,45 @@ void Broadcast::on_planned(const FrameOrder& order, const FramePlan& plan, doubl
     if (viewers_ > 0) tell(NoteTopic::kPlan, plan_note(order, plan, overlap, generation_), plan.frame);
 }
 
-void Broadcast::on_over(const FinishedFrame& frame, bool measuring, Nanoseconds now) {
+// Predicted before the frame itself teaches anything.
+FrameFindings Broadcast::findings_of(const FinishedFrame& frame, Nanoseconds now) {
     FrameFindings findings;
     if (last_over_ && now - *last_over_ < kRest) findings.interval = now - *last_over_;
     last_over_ = now;
-    if (speed_ups_.on_frame(frame.order, frame.timeline, findings.interval, {})) tell_speed_ups(measuring);
-    if (viewers_ > 0) tell(NoteTopic::kFrame, frame_note(frame, findings));
+    findings.critical = critical_path(frame.timeline);
+    if (const auto hardware = rates_.hardware(frame.order.algorithm))
+        findings.prediction =
+            predict(frame.plan, frame.projected, frame.order.algorithm, scene_->objects, *hardware);
+    if (!last_comparison_ || now - *last_comparison_ >= kBetweenComparisons) {
+        findings.others = compare_all(frame);
+        last_comparison_ = now;
+    }
+    return findings;
+}
+
+std::vector<Comparison> Broadcast::compare_all(const FinishedFrame& frame) {
+    std::vector<Contender> contenders;
+    for (const Algorithm algorithm : all_algorithms()) {
+        auto& partitioner = partitioners_[algorithm];
+        if (!partitioner) partitioner = make_partitioner(algorithm, scene_->objects);
+        contenders.push_back({algorithm, partitioner.get()});
+    }
+    return compare({frame.plan.frame, frame.plan.view, frame.projected, frame.plan.servers.size()},
+                   scene_->objects, contenders, rates_);
+}
+
+void Broadcast::on_over(const FinishedFrame& frame, bool measuring, Nanoseconds now) {
+    if (viewers_ == 0) return;
+    if (frame.order.width != width_ || frame.order.height != height_) rates_ = {};
+    width_ = frame.order.width;
+    height_ = frame.order.height;
+    const FrameFindings findings = findings_of(frame, now);
+    rates_.add(frame.plan, frame.timeline, frame.order.algorithm, scene_->objects.size());
+    std::optional<double> predicted_ms;
+    if (findings.prediction) predicted_ms = findings.prediction->frame_ms;
+    if (speed_ups_.on_frame(frame.order, frame.timeline, findings.interval, predicted_ms))
+        tell_speed_ups(measuring);
+    tell(NoteTopic::kFrame, frame_note(frame, findings));
 }
 
 void Broadcast::on_trace(const std::vector<FrameTimeline>& frames) {

@@ -25,6 +25,8 @@ class Broadcast {
     void on_session(SessionFacts facts, const LiveView* live, const WishLimits& limits);
     // The model is cut like this from the next plan on.
     void on_scene(std::shared_ptr<const ObjectSet> scene);
+    // Servers draw or cull differently from now on: what was learned of their rates is void.
+    void on_drawing() { rates_ = {}; }
     void on_state(const LiveView& live, const std::string& busy, const std::string& command);
     void on_planned(const FrameOrder& order, const FramePlan& plan, double overlap);
     // `measuring`: more frames of a measurement will come.
@@ -37,6 +39,8 @@ class Broadcast {
     void keep(NoteTopic topic, std::string text);
     void tell_objects();
     void tell_speed_ups(bool measuring);
+    FrameFindings findings_of(const FinishedFrame& frame, Nanoseconds now);
+    std::vector<Comparison> compare_all(const FinishedFrame& frame);
 
     Send send_;
     std::uint32_t viewers_ = 0;
@@ -44,6 +48,11 @@ class Broadcast {
     std::uint64_t generation_ = 0;
     std::optional<Nanoseconds> last_over_;
     SpeedUps speed_ups_;
+    Rates rates_;  // of pictures of this size
+    int width_ = 0;
+    int height_ = 0;
+    std::map<Algorithm, std::unique_ptr<Partitioner>> partitioners_;  // of scene_, for predictions
+    std::optional<Nanoseconds> last_comparison_;
     bool measuring_ = false;                 // as told
     std::map<NoteTopic, std::string> kept_;  // session, state, speed-ups
 };

@@ -172,20 +172,49 @@ Json machine_json(const MachineTimeline& machine) {
     return {{"name", machine.machine}, {"spans", std::move(spans)}, {"counters", std::move(counters)}};
 }
 
+Json prediction_json(const Prediction& prediction) {
+    Json machines = Json::array();
+    for (const MachinePrediction& machine : prediction.machines) {
+        Json phases = Json::object();
+        for (std::size_t p = 0; p < kPhaseCount; ++p)
+            if (machine.ms[p] > 0) phases[std::string(name(static_cast<Phase>(p)))] = machine.ms[p];
+        machines.push_back({{"name", machine.name}, {"phases", std::move(phases)}});
+    }
+    return {{"machines", std::move(machines)}, {"frame", prediction.frame_ms}};
+}
+
+Json others_json(const std::vector<Comparison>& others, Algorithm in_use) {
+    double in_use_ms = 0;
+    for (const Comparison& other : others)
+        if (other.algorithm == in_use) in_use_ms = other.prediction.frame_ms;
+    Json list = Json::array();
+    for (const Comparison& other : others)
+        list.push_back({{"algorithm", name_of(other.algorithm)},
+                        {"frame", other.prediction.frame_ms},
+                        {"ratio", in_use_ms > 0 ? Json(other.prediction.frame_ms / in_use_ms) : Json()},
+                        {"overlap", other.prediction.overlap},
+                        {"swap_pixels", other.prediction.swap_pixels}});
+    return list;
+}
+
 }  // namespace
 
 std::string frame_note(const FinishedFrame& frame, const FrameFindings& findings) {
-    Json note{{"type", "frame"},
-              {"frame", frame.timeline.frame},
-              {"stream", frame.order.stream},
-              {"algorithm", name_of(frame.order.algorithm)},
-              {"servers", frame.order.servers},
-              {"overlap", frame.timeline.overlap_factor},
-              {"interval", findings.interval ? Json(ms(*findings.interval)) : Json()},
-              {"prediction", nullptr},
-              {"others", nullptr}};
+    Json note{
+        {"type", "frame"},
+        {"frame", frame.timeline.frame},
+        {"stream", frame.order.stream},
+        {"algorithm", name_of(frame.order.algorithm)},
+        {"servers", frame.order.servers},
+        {"overlap", frame.timeline.overlap_factor},
+        {"interval", findings.interval ? Json(ms(*findings.interval)) : Json()},
+        {"prediction", findings.prediction ? prediction_json(*findings.prediction) : Json()},
+        {"others", findings.others.empty() ? Json() : others_json(findings.others, frame.order.algorithm)}};
     Json& machines = note["machines"] = Json::array();
     for (const MachineTimeline& machine : frame.timeline.machines) machines.push_back(machine_json(machine));
+    Json& critical = note["critical"] = Json::array();
+    for (const CriticalSpan& span : findings.critical)
+        critical.push_back({span.machine, name(span.phase), ms(span.begin), ms(span.end)});
     return text_of(note);
 }
 

@@ -5,9 +5,11 @@
 #include "client/live/live_view.h"
 #include "client/live/speed_ups.h"
 #include "client/partition/projection.h"
+#include "client/predict/prediction.h"
 #include "common/image/picture.h"
 #include "common/plan/frame_plan.h"
 #include "common/scene/objects.h"
+#include "common/timeline/critical_path.h"
 #include "common/timeline/timeline.h"
 
 namespace swath {
@@ -38,6 +40,9 @@ struct FinishedFrame {
 // ... and what is made of it.
 struct FrameFindings {
     std::optional<Nanoseconds> interval;  // since the frame before was over; nothing after a rest
+    std::vector<CriticalSpan> critical;
+    std::optional<Prediction> prediction;
+    std::vector<Comparison> others;  // none in most frames
 };
 
 // A note has no more objects than these; a viewer hears that there are too many.

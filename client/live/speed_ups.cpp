@@ -20,8 +20,8 @@ double busiest_cpu_ms(const FrameTimeline& timeline) {
 
 }  // namespace
 
-bool SpeedUps::on_frame(const FrameOrder& order, const FrameTimeline& timeline, std::optional<Nanoseconds> interval,
-                        std::optional<double> predicted_ms) {
+bool SpeedUps::on_frame(const FrameOrder& order, const FrameTimeline& timeline,
+                        std::optional<Nanoseconds> interval, std::optional<double> predicted_ms) {
     if (order.measurement == 0 || !order.counts || !interval) return false;
     if (order.measurement != measurement_) sums_.clear();
     measurement_ = order.measurement;

@@ -9,14 +9,15 @@
 
 namespace swath {
 
-// What a measurement of speed-ups (LiveView) has found: means over the frames that count, for each number of servers.
-// Not thread-safe.
+// What a measurement of speed-ups (LiveView) has found: means over the frames that count, for each number of
+// servers. Not thread-safe.
 class SpeedUps {
   public:
     struct Point {
         std::size_t servers = 1;
-        double interval_ms = 0;     // from one frame's end to the next one's
-        double busiest_cpu_ms = 0;  // of the server whose thread needed most: what counts where each has its own core
+        double interval_ms = 0;  // from one frame's end to the next one's
+        double busiest_cpu_ms =
+            0;  // of the server whose thread needed most: what counts where each has its own core
         std::optional<double> predicted_ms;
     };
 

@@ -11,6 +11,8 @@
 #include <utility>
 #include <variant>
 
+#include "display/view/json_check.h"
+
 namespace swath {
 namespace asio = boost::asio;
 namespace {
@@ -199,9 +201,7 @@ Status ViewerHost::note(NoteTopic topic, FrameNumber frame, Buffer text) {
     if (text.size() > kMaxNoteBytes)
         return fail("Note: {} bytes, the limit is {}", text.size(), kMaxNoteBytes);
     // It becomes a WebSocket's text or part of a picture's header: what is no JSON would cost us the viewers.
-    if (text.empty() || *text.data() != '{' ||
-        !nlohmann::json::accept(text.data(), text.data() + text.size()))
-        return fail("Note: not a JSON object");
+    if (!is_json_object(text.bytes())) return fail("Note: not a JSON object");
     auto bytes = std::make_shared<const Buffer>(std::move(text));
     const std::lock_guard lock(mutex_);
     run(viewers_.on_note(topic, frame, std::move(bytes), clock_.now()));

@@ -266,9 +266,13 @@ TEST_F(ViewerHostTest, AViewerThatNeverReadsCostsBoundedMemoryAndSlowsNobody) {
         host_->announce(frame);
         host_->picture(frame, 0, picture);
         ASSERT_TRUE(host_->note(NoteTopic::kFrame, frame, buffer_of(note)).has_value());
-        const GotPicture got = next_picture(*good);
-        ASSERT_EQ(got.head["frame"], frame);
-        show(*good, got);
+        // On a slow machine the one before comes without loss first.
+        GotPicture got;
+        do {
+            got = next_picture(*good);
+            ASSERT_TRUE(got.head.is_object());
+            show(*good, got);
+        } while (got.head["frame"] != frame);
         EXPECT_LE(host_->numbers().waiting_bytes, 2 * Viewers::kMaxFrameNotes * note.size() + 2'000'000);
     }
     EXPECT_GT(host_->numbers().waiting_bytes, 10 * note.size());  // it does stall
@@ -284,7 +288,7 @@ TEST_F(ViewerHostTest, AViewerThatTakesNothingIsDisconnectedHoweverMuchItSays) {
     WebClient::Options little;
     little.receive_buffer_bytes = 4096;
     const auto stalled = viewer(little);
-    const std::string note = fmt::format(R"({{"type":"frame","fill":"{}"}})", std::string(4'000'000, 'x'));
+    const std::string note = fmt::format(R"({{"type":"frame","fill":"{}"}})", std::string(1'000'000, 'x'));
     for (int i = 0; i < 10; ++i) ASSERT_TRUE(host_->note(NoteTopic::kFrame, 0, buffer_of(note)).has_value());
     const Nanoseconds deadline = loop_.clock.now() + std::chrono::seconds(10);
     while (stalled->send(R"({"type": "lead"})") && loop_.clock.now() < deadline) {

@@ -302,7 +302,9 @@ TEST_F(WebServerTest, EndsAViewerWhoseMessagesAreNone) {
     constexpr int kBadPayload = 1007;
     constexpr int kPolicy = 1008;
     constexpr int kTooBig = 1009;
-    EXPECT_EQ(ending_after(std::string(20'000, ' '), true), kTooBig);
+    constexpr int kNoClose = 1006;
+    // The rest of it is not read, and the reset can overtake the close.
+    EXPECT_THAT(ending_after(std::string(20'000, ' '), true), testing::AnyOf(kTooBig, kNoClose));
     EXPECT_EQ(ending_after(R"({"type": "lead"})", false), 1003);
     EXPECT_EQ(ending_after("\xff\xfe", true), kBadPayload);
     const std::string deep = std::string(16'000, '[');

@@ -21,11 +21,14 @@ class Live : public EndToEnd {
     std::unique_ptr<Process> start_client(const Arguments& more) const {
         return start("swath-client", Arguments{kModel, "--view", "0"} + more);
     }
-    static std::string page(Process& client) { return client.wait_for_line("viewer http://127.0.0.1:", kPatience); }
+    static std::string page(Process& client) {
+        return client.wait_for_line("viewer http://127.0.0.1:", kPatience);
+    }
     // The picture that one process draws of the viewer's camera.
     std::string single(const LiveViewer& viewer, int width, int height) {
         const std::string camera = files_.write("view.camera", viewer.camera_line());
-        const std::string folder = render({kModel, "--single", "--path", camera, "--size", fmt::format("{}x{}", width, height)});
+        const std::string folder =
+            render({kModel, "--single", "--path", camera, "--size", fmt::format("{}x{}", width, height)});
         return contents(std::filesystem::path(folder) / "frame_0000.png");
     }
     static void expect_end(Process& client) {
@@ -67,7 +70,8 @@ TEST_F(Live, StillPicturesEqualThoseOfOneProcessForEveryCameraAndSize) {
                {{0, -6, 0.5, 0, 0, 0, 0, 0, 1, 20.25}, 1200, 400, 600, 200},
                {{0, 0, 100, 0, 0, 200, 0, 1, 0, 30}, 64, 48, 64, 48}};  // looks away
     for (const auto& view : kViews) {
-        const auto id = viewer.wish({{"camera", view.camera}, {"width", view.width}, {"height", view.height}});
+        const auto id =
+            viewer.wish({{"camera", view.camera}, {"width", view.width}, {"height", view.height}});
         const auto still = viewer.still(id);
         EXPECT_EQ(still.header["width"], view.drawn_width);
         EXPECT_EQ(still.header["height"], view.drawn_height);
@@ -82,7 +86,8 @@ TEST_F(Live, CutsDrawsAndCullsDifferentlyWithoutARestartAndWithoutChangingThePic
     const std::string before = viewer.still(viewer.wish(home_)).file;
     const auto objects = viewer.note("objects")["count"].get<int>();
     EXPECT_TRUE(viewer.still(viewer.wish({{"objects", 60}})).file == before);
-    EXPECT_LT(viewer.note("objects", [](const Json& note) { return note["generation"] > 1; })["count"], objects);
+    EXPECT_LT(viewer.note("objects", [](const Json& note) { return note["generation"] > 1; })["count"],
+              objects);
     EXPECT_TRUE(viewer.still(viewer.wish({{"cull", "none"}})).file == before);
     EXPECT_TRUE(viewer.still(viewer.wish({{"cull", "adsb"}, {"objects", 6000}})).file == before);
     EXPECT_TRUE(viewer.still(viewer.wish({{"renderer", "egl"}})).file == before);
@@ -130,12 +135,14 @@ TEST_F(Live, PlaysAPathAndStopsOnAFrameThatAFileOfItsCameraDrawsToo) {
     const auto playing = viewer.wish({{"path", "orbit"}});
     std::set<std::string> cameras;
     while (cameras.size() < 5) {
-        const auto picture = viewer.picture([&](const auto& p) { return p.header["plan"]["wish"] == playing; });
+        const auto picture =
+            viewer.picture([&](const auto& p) { return p.header["plan"]["wish"] == playing; });
         if (!picture.header.is_object()) return;
         cameras.insert(picture.header["plan"]["camera"].dump());
     }
     viewer.wish({{"paused", true}});
-    const auto still = viewer.picture([](const auto& p) { return p.header["format"] == "png" && p.header["plan"]["wish"] > 1; });
+    const auto still = viewer.picture(
+        [](const auto& p) { return p.header["format"] == "png" && p.header["plan"]["wish"] > 1; });
     viewer.wish({{"camera", still.header["plan"]["camera"]}});
     EXPECT_TRUE(still.file == single(viewer, 320, 240));
     expect_end(*client);
@@ -204,8 +211,8 @@ TEST_F(Live, ClientCanComeBackToADisplayThatPeopleLookAt) {
     const std::string server_address = listening_address(*server);
     LiveViewer viewer(page(*display));
     for (int run = 0; run < 2; ++run) {
-        const auto client = start("swath-client", {kModel, "--servers", server_address, "--display", display_address,
-                                                   "--view"});
+        const auto client = start(
+            "swath-client", {kModel, "--servers", server_address, "--display", display_address, "--view"});
         viewer.note("audience", [](const Json& note) { return note["session"] == true; });
         viewer.still(viewer.wish(home_));
         expect_end(*client);

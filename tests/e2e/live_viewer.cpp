@@ -41,7 +41,8 @@ bool LiveViewer::step() {
     }
     std::uint32_t head = 0;
     std::memcpy(&head, message->bytes.data(), sizeof head);
-    Picture picture{Json::parse(message->bytes.substr(sizeof head, head)), message->bytes.substr(sizeof head + head)};
+    Picture picture{Json::parse(message->bytes.substr(sizeof head, head)),
+                    message->bytes.substr(sizeof head + head)};
     say({{"type", "shown"},
          {"frame", picture.header["frame"]},
          {"stream", picture.header["stream"]},
@@ -71,7 +72,8 @@ LiveViewer::Picture LiveViewer::still(std::uint64_t wish, std::uint32_t stream) 
 
 LiveViewer::Json LiveViewer::note(const std::string& type, const std::function<bool(const Json&)>& right) {
     for (;;) {
-        if (const auto found = notes_.find(type); found != notes_.end() && right(found->second)) return found->second;
+        if (const auto found = notes_.find(type); found != notes_.end() && right(found->second))
+            return found->second;
         if (!step()) return {};
     }
 }

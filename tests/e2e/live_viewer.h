@@ -10,8 +10,8 @@
 
 namespace swath::test {
 
-// A page without a browser: hears what a viewer hears, answers pictures, and sends whole wishes. Everything waits with a
-// limit and fails the test when it is over.
+// A page without a browser: hears what a viewer hears, answers pictures, and sends whole wishes. Everything
+// waits with a limit and fails the test when it is over.
 class LiveViewer {
   public:
     using Json = nlohmann::json;
@@ -33,9 +33,9 @@ class LiveViewer {
     // The first picture, whatever it is, for which this is true.
     Picture picture(const std::function<bool(const Picture&)>& right);
     // The newest note of the type, when it is there and this is true of it.
-    Json note(const std::string& type, const std::function<bool(const Json&)>& right = [](const Json&) {
-        return true;
-    });
+    Json note(
+        const std::string& type,
+        const std::function<bool(const Json&)>& right = [](const Json&) { return true; });
 
     // The wish's camera as a line of a camera file.
     std::string camera_line() const;

@@ -19,9 +19,10 @@ FrameOrder order(std::size_t measurement, std::size_t servers, bool counts = tru
 FrameTimeline timeline(Nanoseconds cpu) {
     FrameTimeline made;
     const Nanoseconds none(0);
-    made.machines = {{"client", {{Phase::kPartition, none, none, 10 * cpu}}, {}},
-                     {"server 0", {{Phase::kRender, none, none, cpu / 2}, {Phase::kSwap, none, none, cpu / 2}}, {}},
-                     {"server 1", {{Phase::kRender, none, none, cpu / 3}}, {}}};
+    made.machines = {
+        {"client", {{Phase::kPartition, none, none, 10 * cpu}}, {}},
+        {"server 0", {{Phase::kRender, none, none, cpu / 2}, {Phase::kSwap, none, none, cpu / 2}}, {}},
+        {"server 1", {{Phase::kRender, none, none, cpu / 3}}, {}}};
     return made;
 }
 
