@@ -27,7 +27,8 @@ const std::vector<Look> kLooks{
 // What is wrong with the layout, as sentences. Runs in the page.
 constexpr const char* kLayoutFaults = R"js((() => {
     const faults = [];
-    const name = (e) => `<${e.tagName.toLowerCase()}${e.id ? ` id=${e.id}` : ''}> "${(e.textContent || e.value || '').trim().slice(0, 30)}"`;
+    const name = (e) => `<${e.tagName.toLowerCase()}${e.id ? ` id=${e.id}` : ''}> ` +
+        `"${(e.textContent || e.value || '').trim().slice(0, 30)}"`;
     const root = document.documentElement;
     if (root.scrollWidth > innerWidth) faults.push(`the page is ${root.scrollWidth} wide, the window ${innerWidth}`);
 
@@ -41,7 +42,8 @@ constexpr const char* kLayoutFaults = R"js((() => {
     const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
     while (walker.nextNode()) {
         const e = walker.currentNode.parentElement;
-        if (!walker.currentNode.data.trim() || unseen(e) || e.closest('script, noscript, option, textarea, svg')) continue;
+        if (!walker.currentNode.data.trim() || unseen(e)) continue;
+        if (e.closest('script, noscript, option, textarea, svg')) continue;
         const range = document.createRange();
         range.selectNodeContents(walker.currentNode);
         const box = range.getBoundingClientRect();

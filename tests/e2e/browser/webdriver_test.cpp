@@ -13,13 +13,19 @@ using testing::Throws;
 
 constexpr std::string_view kPage = R"html(<!doctype html><title>harness</title>
 <meta name="viewport" content="width=device-width">
-<style>body{margin:0} #box{width:200px;height:100px;background:#c00} @media (prefers-color-scheme: dark) {#box{background:#00c}}</style>
+<style>
+body{margin:0} #box{width:200px;height:100px;background:#c00}
+#cover{position:fixed;z-index:1;inset:150px 0 0 0} #covered{position:fixed;top:200px}
+</style>
 <div id="box" tabindex="0"></div><button id="button">b</button>
-<div id="cover" style="position:fixed;z-index:1;inset:150px 0 0 0"></div><button id="covered" style="position:fixed;top:200px">c</button>
+<div id="cover"></div><button id="covered">c</button>
 <script>
 window.seen = [];
 for (const type of ['pointerdown', 'pointerup', 'wheel', 'keydown', 'dblclick', 'click'])
-  addEventListener(type, (e) => seen.push(`${type} ${e.pointerType ?? e.key ?? ''} ${e.clientX === undefined ? '' : `${Math.round(e.clientX)},${Math.round(e.clientY)}`}${e.shiftKey ? ' shift' : ''}`));
+  addEventListener(type, (e) => {
+    const place = e.clientX === undefined ? '' : `${Math.round(e.clientX)},${Math.round(e.clientY)}`;
+    seen.push(`${type} ${e.pointerType ?? e.key ?? ''} ${place}${e.shiftKey ? ' shift' : ''}`);
+  });
 </script>)html";
 
 class WebDriver : public BrowserTest {
