@@ -11,8 +11,6 @@
 #include <utility>
 #include <variant>
 
-#include "display/view/json_check.h"
-
 namespace swath {
 namespace asio = boost::asio;
 namespace {
@@ -201,7 +199,9 @@ Status ViewerHost::note(NoteTopic topic, FrameNumber frame, Buffer text) {
     if (text.size() > kMaxNoteBytes)
         return fail("Note: {} bytes, the limit is {}", text.size(), kMaxNoteBytes);
     // It becomes a WebSocket's text or part of a picture's header: what is no JSON would cost us the viewers.
-    if (!is_json_object(text.bytes())) return fail("Note: not a JSON object");
+    const auto* const begin = reinterpret_cast<const char*>(text.data());
+    if (text.empty() || *begin != '{' || !nlohmann::json::accept(begin, begin + text.size()))
+        return fail("Note: not a JSON object");
     auto bytes = std::make_shared<const Buffer>(std::move(text));
     const std::lock_guard lock(mutex_);
     run(viewers_.on_note(topic, frame, std::move(bytes), clock_.now()));
