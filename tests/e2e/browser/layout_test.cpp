@@ -47,18 +47,23 @@ constexpr const char* kLayoutFaults = R"js((() => {
         const range = document.createRange();
         range.selectNodeContents(walker.currentNode);
         const box = range.getBoundingClientRect();
-        if (!scrolls(e) && (box.left < -1 || box.right > innerWidth + 1)) faults.push(`${name(e)} leaves the window`);
+        let clipped = scrolls(e);
         for (let a = e; a && a !== document.body; a = a.parentElement) {
             const style = getComputedStyle(a);
             const inner = a.getBoundingClientRect();
             // An ellipsis says that something is missing, and the title has it.
-            if (style.textOverflow === 'ellipsis' && a.title) break;
+            if (style.textOverflow === 'ellipsis' && a.closest('[title]')) {
+                clipped = true;
+                break;
+            }
             if (/hidden|clip/.test(style.overflowX) && (box.left < inner.left - 1 || box.right > inner.right + 1)) {
                 faults.push(`${name(e)} is cut off by ${name(a)}`);
+                clipped = true;
                 break;
             }
             if (/auto|scroll/.test(style.overflowX)) break;
         }
+        if (!clipped && (box.left < -1 || box.right > innerWidth + 1)) faults.push(`${name(e)} leaves the window`);
     }
 
     // Controls can be reached with a pointer and do not overlap.
@@ -73,6 +78,7 @@ constexpr const char* kLayoutFaults = R"js((() => {
         if (!hit || !(e.contains(hit) || hit.contains(e) && hit.tagName === 'LABEL' || over_picture))
             faults.push(`${name(e)} lies under ${hit ? name(hit) : 'nothing: outside the window'}`);
     }
+    scrollTo(0, 0);
     for (const [i, a] of controls.entries())
         for (const b of controls.slice(i + 1)) {
             const p = a.getBoundingClientRect(), q = b.getBoundingClientRect();
@@ -80,7 +86,6 @@ constexpr const char* kLayoutFaults = R"js((() => {
             const down = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
             if (across > 1 && down > 1 && !scrolls(a) && !scrolls(b)) faults.push(`${name(a)} overlaps ${name(b)}`);
         }
-    scrollTo(0, 0);
     return faults;
 })())js";
 
@@ -94,7 +99,7 @@ class LiveLayout : public LivePage, public testing::WithParamInterface<Look> {
             "!document.getElementById('measure').disabled && "
             "document.querySelectorAll('#curve-table tbody tr').length === 3");
         choose("path", "orbit");
-        wait_until("document.querySelectorAll('#frame-table tbody tr').length > 1");
+        wait_until("document.querySelectorAll('#predictions tbody tr').length > 1");
         choose("path", "");
         wait_for_window_size();
         browser().evaluate("scrollTo(0, 0)");

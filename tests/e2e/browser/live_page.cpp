@@ -17,8 +17,7 @@ constexpr const char* kAtRest = R"js((() => {
         const plan = swath.plan(stream);
         const canvas = document.getElementById(`picture-${stream}`);
         return canvas.dataset.format === 'png' && plan.algorithm === algorithm &&
-            plan.wish === state.wish && plan.by === state.by && plan.servers === state.servers &&
-            plan.width === state.width && plan.height === state.height &&
+            plan.servers === state.servers && plan.width === state.width && plan.height === state.height &&
             String(plan.camera) === String(state.camera);
     });
 })())js";
@@ -82,6 +81,14 @@ void LivePage::wait_for_rest() {
     // The page sends what it was asked for before it draws its next frame.
     browser().evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))");
     wait_until(kAtRest);
+}
+
+void LivePage::wait_for_setup(const std::string& field, const nlohmann::json& value) {
+    wait_until(
+        fmt::format("swath.state.{} === {} && swath.plan(0).wish === swath.state.wish && swath.plan(0).by "
+                    "=== swath.state.by",
+                    field, value.dump()));
+    wait_for_rest();
 }
 
 void LivePage::wait_for_window_size() {

@@ -39,6 +39,8 @@ class LivePage : public BrowserTest {
     void wait_until(const std::string& condition);
     // Until the last thing that the page asked for is drawn without loss, in every stream.
     void wait_for_rest();
+    // ... with this choice of what no plan tells: objects, renderer, culling. It must be a new one.
+    void wait_for_setup(const std::string& field, const nlohmann::json& value);
     // ... at the size that the window asks for.
     void wait_for_window_size();
     Drawn drawn(int stream = 0);
