@@ -253,7 +253,8 @@ void ViewerHost::send(ViewerId to, SharedBytes bytes, bool text) {
 }
 
 void ViewerHost::encode_on_its_thread(EncodePicture&& task) {
-    encoders_[static_cast<std::size_t>(task.key.format)]->post([this, task = std::move(task)]() mutable {
+    WorkerThread& encoder = *encoders_[static_cast<std::size_t>(task.key.format)];
+    encoder.post([this, task = std::move(task)]() mutable {
         try {
             const SharedBytes message = picture_message(task);
             task.picture.reset();

@@ -1,11 +1,11 @@
 #pragma once
 #include <array>
-#include <compare>
 #include <deque>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -33,7 +33,11 @@ struct PictureKey {
     FrameNumber frame = 0;
     std::uint32_t stream = 0;  // below kMaxStreams
     ViewFormat format = ViewFormat::kJpeg;
-    auto operator<=>(const PictureKey&) const = default;
+    bool operator==(const PictureKey&) const = default;
+    bool operator<(const PictureKey& other) const {
+        return std::tie(run, frame, stream, format) <
+               std::tie(other.run, other.frame, other.stream, other.format);
+    }
 };
 
 // What Viewers wants done.

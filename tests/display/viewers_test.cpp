@@ -132,7 +132,7 @@ TEST_F(ViewersTest, WhoAsksToLeadDoes) {
 
 TEST_F(ViewersTest, TheOneWhoHasBeenThereLongestTakesOverFromALeaderWhoGoes) {
     session();
-    for (const ViewerId viewer : {1, 2, 3}) settled_viewer(viewer);
+    for (const ViewerId viewer : {1u, 2u, 3u}) settled_viewer(viewer);
     EXPECT_THAT(leave(2), ElementsAre("1 < audience: 1 leads 2", "3 < audience: 1 leads 2"));
     settled_viewer(4);
     lead(4);
@@ -209,12 +209,12 @@ TEST_F(ViewersTest, ANewcomerGetsTheNewestAtOnceAndWithoutLossWhenNothingMoves) 
 TEST_F(ViewersTest, AtMostTwoPicturesAreOnTheirWayAndThenTheNewestFollows) {
     session();
     settled_viewer(1);
-    for (const FrameNumber frame : {0, 1}) {
+    for (const FrameNumber frame : {0u, 1u}) {
         picture(frame);
         EXPECT_THAT(encoded(frame), ElementsAre(fmt::format("1 < jpeg {}", frame)));
         EXPECT_THAT(written(1), IsEmpty());
     }
-    for (const FrameNumber frame : {2, 3, 4}) EXPECT_THAT(picture(frame), IsEmpty());
+    for (const FrameNumber frame : {2u, 3u, 4u}) EXPECT_THAT(picture(frame), IsEmpty());
     EXPECT_THAT(shown(1, 0), ElementsAre("encode jpeg 4"));
     EXPECT_THAT(encoded(4), ElementsAre("1 < jpeg 4"));
     EXPECT_THAT(written(1), IsEmpty());
@@ -229,7 +229,7 @@ TEST_F(ViewersTest, AtMostTwoPicturesAreOnTheirWayAndThenTheNewestFollows) {
 TEST_F(ViewersTest, OnlyWhatWasSentCanBeShown) {
     session();
     settled_viewer(1);
-    for (const FrameNumber frame : {0, 1}) {
+    for (const FrameNumber frame : {0u, 1u}) {
         picture(frame);
         encoded(frame);
         written(1);
@@ -247,7 +247,7 @@ TEST_F(ViewersTest, WhatIsNextIsChosenWhenTheLastIsWritten) {
     settled_viewer(1);
     picture(0);
     EXPECT_THAT(encoded(0), ElementsAre("1 < jpeg 0"));
-    for (const FrameNumber frame : {1, 2, 3}) EXPECT_THAT(picture(frame), IsEmpty());
+    for (const FrameNumber frame : {1u, 2u, 3u}) EXPECT_THAT(picture(frame), IsEmpty());
     EXPECT_THAT(written(1), ElementsAre("encode jpeg 3"));
 }
 
@@ -283,7 +283,7 @@ TEST_F(ViewersTest, APictureThatCameWhileAnotherWasEncodedFollowsIt) {
 TEST_F(ViewersTest, StreamsAreSeparateAndTakeTurns) {
     session();
     settled_viewer(1);
-    for (const FrameNumber frame : {0, 2}) {
+    for (const FrameNumber frame : {0u, 2u}) {
         picture(frame, 0);
         picture(frame + 1, 1);
         encoded(frame, kJpeg, 0);
@@ -491,7 +491,7 @@ TEST_F(ViewersTest, WhatASessionLeftIsForgottenWithIt) {
 TEST_F(ViewersTest, FrameNumbersBeginAnewWithASession) {
     session();
     settled_viewer(1);
-    for (const FrameNumber frame : {7, 8}) {
+    for (const FrameNumber frame : {7u, 8u}) {
         picture(frame);
         encoded(frame);
         written(1);
