@@ -65,11 +65,11 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     std::string view;
     std::string max_view =
         fmt::format("{}x{}", options.view_limits.max_width, options.view_limits.max_height);
-    auto* viewer = app.add_option("--view", view,
-                                  "a live run: no path, the page of the display shows and steers it. With\n"
-                                  "--local the page is at this [HOST:]PORT [8080]; 0 takes a free port")
-                       ->expected(0, 1)
-                       ->excludes(single);
+    auto* viewer =
+        app.add_option("--view", view,
+                       "live: shown and steered by a page, with --local at this [HOST:]PORT [8080]")
+            ->expected(0, 1)
+            ->excludes(single);
     app.add_option("--view-max-size", max_view, "largest picture that viewers may ask for")
         ->capture_default_str()
         ->needs(viewer);

@@ -81,21 +81,16 @@ class Walk {
 
     Step* cause_of(const Step& effect) {
         const Nanoseconds begin = effect.span.begin;
-        auto step = std::ranges::partition_point(
-            steps_, [&](const Step& each) { return each.span.end <= begin + clock_error_; });
         Step* best = nullptr;
         // Nearest end, then the own machine, then the longer span.
         std::tuple<Nanoseconds, bool, Nanoseconds> best_rank;
-        while (step != steps_.begin()) {
-            --step;
-            const Nanoseconds gap = begin - step->span.end;
-            if (best != nullptr && gap > std::get<0>(best_rank)) break;
-            const bool own = step->machine == effect.machine;
-            if (step->taken || step->span.begin > begin || step->span.end > effect.span.end) continue;
-            if (own ? gap < Nanoseconds(0) : !can_cause(*step, effect)) continue;
-            const std::tuple rank(std::max(gap, -gap), !own, step->span.begin);
+        for (Step& step : steps_) {
+            const bool own = step.machine == effect.machine;
+            if (step.taken || step.span.begin > begin + (own ? Nanoseconds(0) : clock_error_)) continue;
+            if (own ? step.span.end > begin : !can_cause(step, effect)) continue;
+            const std::tuple rank(std::chrono::abs(begin - step.span.end), !own, step.span.begin);
             if (best != nullptr && rank >= best_rank) continue;
-            best = &*step;
+            best = &step;
             best_rank = rank;
         }
         return best;

@@ -29,11 +29,12 @@ inline constexpr Nanoseconds kClockError = std::chrono::microseconds(200);
 // - for the display's: the client's, and servers' gathering and sending of tiles.
 // Waits are no causes: what ended them is. The exception is a server's wait between its task and its first
 // work, in which its drawing thread was busy with another frame.
-// A span of another machine may end up to `clock_error` after it caused something; of several the one whose
-// end is nearest counts, and a span of the own machine that ends as the next begins counts before all others.
-// Between two spans of the chain there may be a gap: messages on their way, or another frame's work.
-// Of equal timelines it is the same; empty only if there is no span but waits. Spans that end before they
-// begin are passed over.
+// A span of another machine may go on while what it caused has begun: messages leave within spans, and a
+// thread may lose its core before it can look at the clock. It must have begun before, but for `clock_error`.
+// Of several the one whose end is nearest counts, and a span of the own machine that ends as the next begins
+// counts before all others. Between two spans of the chain there may be a gap: messages on their way, or
+// another frame's work. Of equal timelines it is the same; empty only if there is no span but waits. Spans
+// that end before they begin are passed over.
 std::vector<CriticalSpan> critical_path(const FrameTimeline& frame, Nanoseconds clock_error = kClockError);
 
 }  // namespace swath
