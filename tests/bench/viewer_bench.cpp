@@ -1,4 +1,5 @@
 #include <fmt/ranges.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -6,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -121,6 +123,24 @@ std::string address_of(test::Process& process) {
     return process.wait_for_line("listening 127.0.0.1:", kPatience).substr(kAnnouncement.size());
 }
 
+// CPU time that a running program has used, all threads.
+double cpu_s(const test::Process& process) {
+    clockid_t clock{};
+    timespec time{};
+    if (::clock_getcpuclockid(process.pid(), &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// ... and all that have been waited for.
+double ended_cpu_s() {
+    rusage usage{};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 // A run along a path three ways, in turn: with a display without a page, with a page that nobody looks at,
 // and with a viewer who takes what it gets.
 Status bench_cost(Figures& figures, const Effort& effort, const Programs& programs) {
@@ -137,6 +157,11 @@ Status bench_cost(Figures& figures, const Effort& effort, const Programs& progra
     const std::string viewed_address = address_of(*viewed);
     const std::string page_line = viewed->wait_for_line("viewer http://", kPatience);
 
+    const auto all_cpu_s = [&] {
+        double sum = ended_cpu_s() + cpu_s(*plain) + cpu_s(*viewed);
+        for (const auto& server : servers) sum += cpu_s(*server);
+        return sum;
+    };
     const auto frames_per_s = [&](const std::string& display) -> Result<double> {
         const auto client = programs.start(
             "swath-client",
@@ -151,10 +176,12 @@ Status bench_cost(Figures& figures, const Effort& effort, const Programs& progra
     };
     std::vector<double> cost;
     std::vector<double> idle_cost;
+    std::vector<double> cpu_cost;
     std::size_t pictures = 0;
     // The first round fills caches.
     for (int round = 0; round <= effort.repetitions; ++round) {
         std::map<std::string, double> fps;
+        std::map<std::string, double> cpu;
         // Each way comes first, second and last in turn.
         std::array<std::string, 3> ways{"plain", "idle", "watched"};
         std::rotate(ways.begin(), ways.begin() + round % 3, ways.end());
@@ -165,19 +192,24 @@ Status bench_cost(Figures& figures, const Effort& effort, const Programs& progra
                 if (!page) return tl::unexpected(page.error());
                 audience.emplace(std::move(*page));
             }
+            const double before_s = all_cpu_s();
             const auto measured = frames_per_s(way == "plain" ? plain_address : viewed_address);
             if (!measured) return tl::unexpected(measured.error());
             fps[way] = *measured;
+            cpu[way] = all_cpu_s() - before_s;
             if (audience) pictures += audience->pictures();
         }
         if (round == 0 && !effort.smoke) continue;
         cost.push_back(fps["watched"] / fps["plain"]);
         idle_cost.push_back(fps["idle"] / fps["plain"]);
+        cpu_cost.push_back(cpu["watched"] / cpu["plain"]);
     }
     if (pictures == 0) return fail("a run was watched and no picture came");
     figures.add(
         "viewer_cost", cost, "ratio",
         fmt::format("at least 0.95: frames/s at {} with one viewer over those without a page", kSize));
+    figures.add("viewer_cpu", cpu_cost, "ratio",
+                "no bar; CPU time of all programs but the viewer, with one over without");
     figures.add("viewer_idle_cost", idle_cost, "ratio",
                 "1 within the noise: ... with a page that nobody looks at over those without");
     return {};
