@@ -330,13 +330,74 @@ Status bench_steering(Figures& figures, const Effort& effort, const Programs& pr
     return {};
 }
 
+// What the longest machine of a frame note was busy for, as a prediction counts it.
+double busiest_ms(const json& note) {
+    double most = 0;
+    for (const json& machine : note.at("machines")) {
+        double sum = 0;
+        for (const json& span : machine.at("spans"))
+            if (span.at(0) != "wait") sum += span.at(2).get<double>() - span.at(1).get<double>();
+        most = std::max(most, sum);
+    }
+    return most;
+}
+
+// Predictions of all algorithms at the rates that the hybrid has shown, over what their frames took in the
+// same round.
+Status bench_prediction(Figures& figures, const Effort& effort, const Programs& programs) {
+    const std::string model = effort.smoke ? "builtin:knot:20000" : "builtin:knot:200000";
+    const auto client = programs.start("swath-client", {model, "--local", "2", "--view", "0"});
+    auto page = Page::open(client->wait_for_line("viewer http://", kPatience));
+    if (!page) return tl::unexpected(page.error());
+    const std::vector<std::string> algorithms{"hybrid", "mahd", "kd-split", "sort-last"};
+    constexpr int kFrames = 24;
+    constexpr int kPassedOver = 4;  // frames after a change, of which some are still another algorithm's
+    std::map<std::string, std::vector<double>> errors;
+    std::uint64_t id = 0;
+    // The first round teaches the rates.
+    for (int round = 0; round <= effort.repetitions; ++round) {
+        std::map<std::string, std::vector<double>> predicted_ms;
+        std::map<std::string, std::vector<double>> measured_ms;
+        for (const std::string& algorithm : algorithms) {
+            (*page)->say({{"type", "wish"},
+                          {"id", ++id},
+                          {"width", 1280},
+                          {"height", 960},
+                          {"path", "orbit"},
+                          {"algorithm", algorithm}});
+            for (int frames = 0; frames < kFrames + kPassedOver;) {
+                const auto heard = (*page)->hear(kPatience);
+                if (!heard) return fail("no more frames came");
+                if (heard->picture || heard->value.value("type", "") != "frame" ||
+                    heard->value.at("algorithm") != algorithm)
+                    continue;
+                if (++frames <= kPassedOver) continue;
+                measured_ms[algorithm].push_back(busiest_ms(heard->value));
+                if (algorithm == "hybrid" && heard->value.at("others").is_array())
+                    for (const json& other : heard->value.at("others"))
+                        predicted_ms[other.at("algorithm")].push_back(other.at("frame"));
+            }
+        }
+        if (round == 0 && !effort.smoke) continue;
+        for (const std::string& algorithm : algorithms)
+            if (!predicted_ms[algorithm].empty())
+                errors[algorithm].push_back(median(predicted_ms[algorithm]) / median(measured_ms[algorithm]));
+    }
+    for (const std::string& algorithm : algorithms)
+        if (!errors[algorithm].empty())
+            figures.add("predicted_" + algorithm, errors[algorithm], "ratio",
+                        "no bar: its frame as predicted while the hybrid runs, over what it then takes");
+    return {};
+}
+
 }  // namespace
 
 Status bench_viewer(Figures& figures, const Effort& effort) {
     const Programs programs;
     try {
         if (const auto status = bench_cost(figures, effort, programs); !status) return status;
-        return bench_steering(figures, effort, programs);
+        if (const auto status = bench_steering(figures, effort, programs); !status) return status;
+        return bench_prediction(figures, effort, programs);
     } catch (
         const std::exception& error) {  // a program ended or said nothing, a note is not what it should be
         return fail("{}", error.what());
