@@ -42,10 +42,10 @@ Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) 
 }
 
 // What a live run starts with: the path's first camera.
-Result<LiveView::Settings> live_settings(const ClientOptions& options, std::size_t servers, const Box& bounds,
-                                         const Camera& home) {
+Result<LiveView::Settings> live_settings(const ClientOptions& options, std::size_t servers,
+                                         const ObjectSet& scene, const Camera& home) {
     LiveView::Settings live;
-    live.bounds = bounds;
+    live.bounds = scene.bounds;
     live.limits = options.view_limits;
     live.limits.servers = servers;
     live.seed = options.seed;
@@ -56,7 +56,8 @@ Result<LiveView::Settings> live_settings(const ClientOptions& options, std::size
     live.start.height = std::min(options.height, live.limits.max_height);
     live.start.algorithm = options.algorithm;
     live.start.servers = servers;
-    live.start.setup = {options.granularity.objects, options.renderer, options.cull};
+    live.start.setup = {options.granularity.depth ? scene.objects.size() : options.granularity.objects,
+                        options.renderer, options.cull};
     return live;
 }
 
@@ -157,7 +158,7 @@ Status run_client(const ClientOptions& options) {
         job.cull = options.cull;
         job.algorithm = options.algorithm;
         if (options.view) {
-            auto live = live_settings(options, job.servers.size(), scene.bounds, cameras->front());
+            auto live = live_settings(options, job.servers.size(), scene, cameras->front());
             if (!live) return tl::unexpected(live.error());
             job.live = std::move(*live);
         } else {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <utility>
 
@@ -198,8 +199,12 @@ Status ClusterRun::on_ready(Peer& peer, const Ready& ready) {
         peer.description = ready.description;
     }
     if (!std::all_of(peers_.begin(), peers_.end(), [](const Peer& p) { return p.ready; })) return {};
-    SessionFacts facts{
-        job_.model, job_.scene->mesh.triangle_count(), job_.scene->bounds, {}, job_.background};
+    // Viewers are told the file's name, not where it lies.
+    SessionFacts facts{std::filesystem::path(job_.model).filename().string(),
+                       job_.scene->mesh.triangle_count(),
+                       job_.scene->bounds,
+                       {},
+                       job_.background};
     for (const Peer& p : peers_)
         if (p.role == Role::kServer) {
             facts.servers.push_back({p.address, p.description});
