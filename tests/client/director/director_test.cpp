@@ -9,7 +9,7 @@
 namespace swath {
 
 std::ostream& operator<<(std::ostream& out, const DirectorAction& action) {
-    static constexpr const char* kNames[] = {"issue", "finish", "abort"};
+    static constexpr const char* kNames[] = {"issue", "reconfigure", "finish", "abort"};
     return out << kNames[static_cast<int>(action.kind)] << " frame " << action.frame << " " << action.reason;
 }
 
@@ -19,6 +19,7 @@ using Actions = Director::Actions;
 using Kind = DirectorAction::Kind;
 
 DirectorAction issue(FrameNumber frame) { return {Kind::kIssue, frame, {}}; }
+DirectorAction reconfigure() { return {Kind::kReconfigure, 0, {}}; }
 DirectorAction finish() { return {Kind::kFinish, 0, {}}; }
 
 Actions good(const Result<Actions>& result) {
@@ -100,6 +101,50 @@ TEST(Director, IsNotInterestedInLossesAfterTheEnd) {
     director.on_issued(0, 0);
     EXPECT_EQ(good(director.on_display_report(0)), (Actions{finish()}));
     EXPECT_EQ(director.on_lost("the display", "closed the connection"), (Actions{}));
+}
+
+TEST(LiveDirector, BeginsAFrameWhenOneIsWantedAndOnlyThen) {
+    Director director = Director::live(2);
+    EXPECT_EQ(director.on_wanted(true), (Actions{}));  // nobody is connected yet
+    EXPECT_EQ(director.on_start(), (Actions{issue(0)}));
+    director.on_issued(0, 0);
+    EXPECT_EQ(director.on_wanted(false), (Actions{}));
+    EXPECT_EQ(good(director.on_display_report(0)), (Actions{}));  // and no end
+    EXPECT_EQ(director.on_wanted(true), (Actions{issue(1)}));
+}
+
+TEST(LiveDirector, QueuesNothingThatIsWantedWhileAllSlotsAreTaken) {
+    Director director = Director::live(1);
+    director.on_start();
+    EXPECT_EQ(director.on_wanted(true), (Actions{issue(0)}));
+    director.on_issued(0, 0);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(director.on_wanted(true), (Actions{}));
+    EXPECT_EQ(good(director.on_display_report(0)), (Actions{issue(1)}));
+    director.on_issued(1, 0);
+    EXPECT_EQ(good(director.on_display_report(1)), (Actions{}));
+}
+
+TEST(LiveDirector, ReconfiguresWhenNoFrameIsOpenAndBeginsNoneBeforeThatIsDone) {
+    Director director = Director::live(2);
+    director.on_start();
+    director.on_wanted(true);
+    director.on_issued(0, 1);
+    EXPECT_EQ(director.on_reconfigure(), (Actions{}));
+    EXPECT_EQ(director.on_wanted(true), (Actions{}));
+    EXPECT_EQ(director.on_reconfigure(), (Actions{}));
+    good(director.on_display_report(0));
+    EXPECT_EQ(good(director.on_server_report(0)), (Actions{reconfigure()}));
+    EXPECT_EQ(director.on_reconfigure(), (Actions{}));
+    EXPECT_EQ(director.on_wanted(true), (Actions{}));
+    EXPECT_EQ(director.on_reconfigured(), (Actions{issue(1)}));
+}
+
+TEST(LiveDirector, EndsWhenSomeoneIsLost) {
+    Director director = Director::live(2);
+    director.on_start();
+    EXPECT_EQ(director.on_lost("the display", "gone"), (Actions{{Kind::kAbort, 0, "the display: gone"}}));
+    EXPECT_EQ(director.on_wanted(true), (Actions{}));
+    EXPECT_EQ(director.on_reconfigure(), (Actions{}));
 }
 
 TEST(Director, IssuesEveryFrameOnceInOrderAndNeverTooManyHoweverReportsInterleave) {

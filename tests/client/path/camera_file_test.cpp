@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace swath {
 namespace {
 
@@ -45,6 +47,25 @@ TEST(CameraFile, ErrorsNameTheFileTheLineAndTheFault) {
     EXPECT_THAT(error_of("0 0 9 0 0 9 0 1 0 30"), HasSubstr("same point"));
     EXPECT_THAT(error_of("0 0 9 0 0 0 0 0 0 30"), HasSubstr("up is zero"));
     EXPECT_THAT(error_of("0 0 9 0 0 0 0 0 -2 30"), HasSubstr("line of sight"));
+}
+
+TEST(CameraNumbers, AreTheSameBitsWhenALineOfThemIsRead) {
+    const CameraNumbers numbers{0.1f,  -1e-7f, 123456.789f, 1.0f / 3, 0,
+                                -0.0f, 0.01f,  0.99f,       1e-3f,    34.377468f};
+    const auto cameras = parse_cameras(to_line(numbers), "view.camera");
+    ASSERT_TRUE(cameras);
+    EXPECT_EQ((*cameras)[0], *camera_of(numbers));
+    EXPECT_EQ(camera_of(numbers_of((*cameras)[0]))->eye, (*cameras)[0].eye);
+    EXPECT_EQ(camera_of(numbers_of((*cameras)[0]))->up, (*cameras)[0].up);
+}
+
+TEST(CameraNumbers, ThatNobodyCanLookThroughAreRefused) {
+    CameraNumbers numbers{0, 0, 9, 0, 0, 0, 0, 1, 0, 30};
+    ASSERT_TRUE(camera_of(numbers));
+    numbers[3] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THAT(camera_of(numbers).error().message, HasSubstr("nan is not within 1e+18"));
+    numbers[3] = std::numeric_limits<float>::infinity();
+    EXPECT_THAT(camera_of(numbers).error().message, HasSubstr("inf is not within"));
 }
 
 TEST(CameraFile, WithoutCamerasIsAnError) {

@@ -107,6 +107,14 @@ TEST(Connecting, WaitsForAProgramThatIsJustStarting) {
     EXPECT_EQ(said, "connected");
 }
 
+TEST(LocalAddress, IsOnLoopbackUnlessItSaysOtherwise) {
+    EXPECT_EQ(parse_local_address("8080"), (Address{"127.0.0.1", 8080}));
+    EXPECT_EQ(parse_local_address("0.0.0.0:80"), (Address{"0.0.0.0", 80}));
+    EXPECT_EQ(parse_local_address("[::1]:80"), (Address{"::1", 80}));
+    for (const char* text : {"", "web", "8080x", "65536", ":80"})
+        EXPECT_FALSE(parse_local_address(text)) << text;
+}
+
 TEST(Address, IsAHostAndAPort) {
     EXPECT_EQ(parse_address("localhost:80"), (Address{"localhost", 80}));
     EXPECT_EQ(parse_address("[::1]:65535"), (Address{"::1", 65535}));
