@@ -19,7 +19,6 @@ namespace swath {
 namespace {
 
 constexpr std::size_t kLiveHistory = 240;  // frames whose timelines a live run keeps
-constexpr const char* kChanging = "changing the setup";
 
 }  // namespace
 
@@ -378,7 +377,7 @@ Status ClusterRun::on_wish(const Wish& wish, const Buffer& body) {
     if (const auto status = live_->on_wish(text, wish.viewer); !status)
         spdlog::warn("viewer {}: {}", wish.viewer, status.error().message);
     if (live_->take_trace()) broadcast_.on_trace({timelines_.begin(), timelines_.end()});
-    tell_state(change_.under_way() || next_scene_ ? kChanging : "");
+    tell_state();
     return follow_wish();
 }
 
@@ -389,8 +388,11 @@ Status ClusterRun::follow_wish() {
     return run(director_.on_wanted(live_->wants_frame()));
 }
 
-void ClusterRun::tell_state(const std::string& busy) {
-    broadcast_.on_state(*live_, busy, job_.command(live_->wish(), job_.scene->depth));
+void ClusterRun::tell_state() {
+    LiveWish shown = live_->wish();
+    shown.setup = live_->setup();
+    broadcast_.on_state(*live_, changing_ ? "changing the setup" : "",
+                        job_.command(shown, job_.scene->depth));
 }
 
 // No frame is open. The client cuts the model first: the servers are told a depth.
@@ -401,9 +403,9 @@ Status ClusterRun::change_setup() {
         return follow_wish();
     }
     next_setup_ = *wanted;
-    tell_state(kChanging);
+    changing_ = true;
+    tell_state();
     if (wanted->objects == live_->setup().objects) return on_cut(job_.scene);
-    next_scene_ = job_.scene;
     if (!cutter_) cutter_ = std::make_unique<WorkerThread>();
     // The task holds nothing alive: the run's end waits for it.
     cutter_->post([this, weak = weak_from_this(), scene = job_.scene, objects = wanted->objects] {
@@ -460,6 +462,7 @@ Status ClusterRun::on_changed(const Ready& ready) {
 
 Status ClusterRun::end_change(const std::string& refused) {
     auto scene = std::exchange(next_scene_, nullptr);
+    changing_ = false;
     if (refused.empty()) {
         const Drawing before =
             std::exchange(drawing_, {scene->depth, next_setup_.renderer, next_setup_.cull});
@@ -467,7 +470,7 @@ Status ClusterRun::end_change(const std::string& refused) {
         if (scene != job_.scene) use(std::move(scene));
         live_->on_setup(next_setup_);
     } else {
-        live_->on_setup_refused(refused);
+        live_->on_setup_refused(next_setup_, refused);
     }
     tell_state();
     if (const auto status = run(director_.on_reconfigured()); !status) return status;

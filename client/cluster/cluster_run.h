@@ -111,7 +111,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Status end_change(const std::string& refused);
     void use(std::shared_ptr<const ObjectSet> scene);
     Partitioner& partitioner(Algorithm algorithm);
-    void tell_state(const std::string& busy = {});
+    void tell_state();
     Status offer(const Peer& peer, const Message& message, Buffer body = {});
     void lost(std::size_t peer, const std::string& why);
     void finish(Result<std::vector<FrameTimeline>> result);
@@ -133,6 +133,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
 
     // A change of setup, from kReconfigure on.
     Drawing drawing_;  // in effect
+    bool changing_ = false;
     LiveSetup next_setup_;
     std::shared_ptr<const ObjectSet> next_scene_;
     SetupChange change_;

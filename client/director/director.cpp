@@ -27,6 +27,7 @@ Director::Actions Director::on_reconfigure() {
 
 Director::Actions Director::on_reconfigured() {
     change_ = Change::kNone;
+    wanted_ = false;
     return advance();
 }
 

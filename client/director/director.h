@@ -47,6 +47,7 @@ class Director {
     Actions on_wanted(bool wanted);
     // Begins no frame until those in flight are over and kReconfigure has been done.
     Actions on_reconfigure();
+    // What was wanted before may be so no more: whoever changed things says it anew.
     Actions on_reconfigured();
 
     std::size_t complete() const { return complete_; }

@@ -67,9 +67,11 @@ FrameFindings Broadcast::findings_of(const FinishedFrame& frame, Nanoseconds now
     if (const auto hardware = rates_.hardware(frame.order.algorithm))
         findings.prediction =
             predict(frame.plan, frame.projected, frame.order.algorithm, scene_->objects, *hardware);
-    if (!last_comparison_ || now - *last_comparison_ >= kBetweenComparisons) {
+    const bool due = !last_comparison_ || now - *last_comparison_ >= kBetweenComparisons;
+    if (frame.order.stream == 0 && (due || frame.order.algorithm != compared_)) {
         findings.others = compare_all(frame);
         last_comparison_ = now;
+        compared_ = frame.order.algorithm;
     }
     return findings;
 }
@@ -100,7 +102,14 @@ void Broadcast::on_over(const FinishedFrame& frame, bool measuring, Nanoseconds 
 }
 
 void Broadcast::on_trace(const std::vector<FrameTimeline>& frames) {
-    tell(NoteTopic::kTrace, trace_note(to_chrome_trace(frames)));
+    // Of many servers' frames fewer fit.
+    std::span<const FrameTimeline> newest(frames);
+    std::string note = trace_note(to_chrome_trace(newest));
+    while (note.size() > kMaxNoteBytes && newest.size() > 1) {
+        newest = newest.subspan((newest.size() + 1) / 2);
+        note = trace_note(to_chrome_trace(newest));
+    }
+    tell(NoteTopic::kTrace, note);
 }
 
 }  // namespace swath

@@ -53,8 +53,9 @@ class Broadcast {
     int height_ = 0;
     std::map<Algorithm, std::unique_ptr<Partitioner>> partitioners_;  // of scene_, for predictions
     std::optional<Nanoseconds> last_comparison_;
-    bool measuring_ = false;                 // as told
-    std::map<NoteTopic, std::string> kept_;  // session, state, speed-ups
+    Algorithm compared_ = Algorithm::kHybrid;  // in use then
+    bool measuring_ = false;                   // as told
+    std::map<NoteTopic, std::string> kept_;    // session, state, speed-ups
 };
 
 }  // namespace swath

@@ -1,5 +1,6 @@
 #include "client/live/live_view.h"
 
+#include <cmath>
 #include <utility>
 
 #include "client/path/path.h"
@@ -25,6 +26,12 @@ Status LiveView::on_wish(std::string_view json, std::uint32_t by) {
     auto refused = apply_wish(json, by, settings_.limits, wish_);
     if (!refused) return tl::unexpected(refused.error());
     refused_ = std::move(*refused);
+    if (const auto status = check_camera(); !status) {
+        wish_.camera = before.camera;
+        wish_.width = before.width;
+        wish_.height = before.height;
+        refused_["camera"] = status.error().message;
+    }
     const bool view_changed = wish_.camera != before.camera || wish_.width != before.width ||
                               wish_.height != before.height || wish_.algorithm != before.algorithm ||
                               wish_.against != before.against || wish_.servers != before.servers ||
@@ -41,11 +48,23 @@ Status LiveView::on_wish(std::string_view json, std::uint32_t by) {
     if (!wish_.paused) steps_ = 0;
     if (wish_.trace > before.trace) trace_ = true;
     if (wish_.measure > before.measure) {
+        if (path_.empty()) shown_ = wish_.camera;
         ++measurement_;
         measured_servers_ = 1;
         measured_frames_ = 0;
     }
     if (refused_setup_ && wish_.setup != *refused_setup_) refused_setup_.reset();
+    return {};
+}
+
+// A camera that is one by itself may still be too far from this model, or too narrow, for single precision.
+Status LiveView::check_camera() const {
+    const FrameOrder order = order_of(wish_.camera, wish_.algorithm, wish_.servers);
+    const View view = make_view(order.camera, order.width, order.height);
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k)
+            if (!std::isfinite(view.clip_from_model[i][k]))
+                return fail("the model cannot be projected from there");
     return {};
 }
 
@@ -131,15 +150,15 @@ void LiveView::on_setup(const LiveSetup& setup) {
     measured_servers_ = 0;
 }
 
-void LiveView::on_setup_refused(const std::string& why) {
-    refused_setup_ = wish_.setup;
+void LiveView::on_setup_refused(const LiveSetup& tried, const std::string& why) {
+    refused_setup_ = tried;
     refused_why_ = why;
     dirty_ = true;
 }
 
 Refusals LiveView::refused() const {
     Refusals all = refused_;
-    if (!refused_setup_) return all;
+    if (wish_.setup != refused_setup_) return all;
     if (refused_setup_->objects != setup_.objects) all["objects"] = refused_why_;
     if (refused_setup_->renderer != setup_.renderer) all["renderer"] = refused_why_;
     if (refused_setup_->cull != setup_.cull) all["cull"] = refused_why_;

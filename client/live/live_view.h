@@ -52,11 +52,13 @@ class LiveView {
     // The setup that is wished for and not in effect: to be changed before the next frame.
     std::optional<LiveSetup> wanted_setup() const;
     void on_setup(const LiveSetup& setup);
-    // It cannot be had. What was in effect stays so, and the same wish is not tried again.
-    void on_setup_refused(const std::string& why);
+    // It was tried and cannot be had. What was in effect stays so, and the same wish is not tried again.
+    void on_setup_refused(const LiveSetup& tried, const std::string& why);
 
     const LiveWish& wish() const { return wish_; }     // as asked for
     const LiveSetup& setup() const { return setup_; }  // in effect
+    // The wish's, or what is in effect where that cannot be had.
+    const LiveSetup& accepted_setup() const { return wish_.setup == refused_setup_ ? setup_ : wish_.setup; }
     Refusals refused() const;
     const CameraNumbers& home() const { return settings_.start.camera; }
     // The wish's; while a path plays, that of the newest order.
@@ -70,6 +72,7 @@ class LiveView {
 
   private:
     void start_path();
+    Status check_camera() const;
     FrameOrder order_of(const CameraNumbers& numbers, Algorithm algorithm, std::size_t servers) const;
 
     Settings settings_;

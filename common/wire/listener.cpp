@@ -2,6 +2,7 @@
 
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
+#include <new>
 
 namespace swath {
 namespace asio = boost::asio;
@@ -44,7 +45,10 @@ void Listener::accept() {
                                                                        tcp::socket socket) {
         if (alive.expired() || error == asio::error::operation_aborted) return;
         if (!error) {
-            on_socket_(std::move(socket));
+            try {
+                on_socket_(std::move(socket));
+            } catch (const std::bad_alloc&) {  // this one is lost; the next may be had
+            }
             if (!alive.expired()) accept();
             return;
         }

@@ -67,10 +67,7 @@ Status DisplaySession::on_message(const std::shared_ptr<Connection>& from, Messa
 Status DisplaySession::from_client(const Message& message, Buffer&& body) {
     if (const auto* setup = std::get_if<DisplaySetup>(&message)) return on_setup(*setup);
     if (const auto* task = std::get_if<AssembleFrame>(&message)) return on_assemble(*task);
-    if (const auto* note = std::get_if<Note>(&message)) {
-        if (!assembly_) return fail("Note before DisplaySetup");
-        return viewers_ == nullptr ? Status{} : viewers_->note(note->topic, note->frame, std::move(body));
-    }
+    if (const auto* note = std::get_if<Note>(&message)) return on_note(*note, std::move(body));
     return fail("{} is not expected from a client", name(message));
 }
 
@@ -96,11 +93,29 @@ std::uint32_t DisplaySession::begin_viewing() {
     callbacks.on_wish = [weak](ViewerId viewer, const std::string& wish) {
         const auto self = weak.lock();
         if (!self || self->stopped_) return;
-        Buffer body;
-        body.append(wish.data(), wish.size());
-        self->tell(Wish{viewer}, std::move(body));
+        self->next_wish_.emplace(viewer, wish);
+        self->pass_wish();
     };
     return viewers_->begin(setup_.live, io_.get_executor(), std::move(callbacks));
+}
+
+void DisplaySession::pass_wish() {
+    if (!next_wish_ || wish_under_way_) return;
+    const auto [viewer, text] = *std::exchange(next_wish_, std::nullopt);
+    Buffer body;
+    body.append(text.data(), text.size());
+    wish_under_way_ = true;
+    tell(Wish{viewer}, std::move(body));
+}
+
+Status DisplaySession::on_note(const Note& note, Buffer&& text) {
+    if (!assembly_) return fail("Note before DisplaySetup");
+    if (viewers_ == nullptr) return {};
+    if (note.topic == NoteTopic::kState) {
+        wish_under_way_ = false;
+        pass_wish();
+    }
+    return viewers_->note(note.topic, note.frame, std::move(text));
 }
 
 Status DisplaySession::on_assemble(const AssembleFrame& task) {

@@ -2,6 +2,9 @@
 #include <boost/asio/io_context.hpp>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "common/base/worker_thread.h"
@@ -39,6 +42,8 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     Status from_client(const Message& message, Buffer&& body);
     Status on_setup(const DisplaySetup& setup);
     std::uint32_t begin_viewing();
+    Status on_note(const Note& note, Buffer&& text);
+    void pass_wish();
     Status on_assemble(const AssembleFrame& task);
     Status from_server(ServerId from, const Message& message, Buffer&& body);
     Status run(const Assembly::Actions& actions);
@@ -53,6 +58,10 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     std::shared_ptr<Connection> client_;
     DisplaySetup setup_;
     bool stopped_ = false;
+    // The newest wish that the client does not have yet; it gets one at a time, so that it never works off
+    // old ones.
+    std::optional<std::pair<ViewerId, std::string>> next_wish_;
+    bool wish_under_way_ = false;                       // until the client's next state note
     std::vector<std::shared_ptr<Connection>> servers_;  // by ServerId; null until connected
     std::unique_ptr<Assembly> assembly_;
     std::map<FrameNumber, OpenFrame> frames_;

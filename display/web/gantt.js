@@ -42,7 +42,9 @@ export class Gantt {
     get frames() { return this.#frames; }
 
     add(frame) {
-        this.#frames.push({...frame, lines: this.#lines_of(frame), ...extent(frame.machines)});
+        const lines = this.#lines_of(frame);  // known for those after it, even if it is not kept
+        if (this.paused && this.#frames.length >= 2 * kFramesKept) return;
+        this.#frames.push({...frame, lines, ...extent(frame.machines)});
         if (this.#frames.length > kFramesKept && !this.paused)
             this.#frames.splice(0, this.#frames.length - kFramesKept);
         if (!this.paused) this.#timer ??= setTimeout(() => {

@@ -34,7 +34,7 @@ const now = {
     objects: null,
     speedup: null,
     frames: [null, null],
-    others: null,
+    compared: null,  // the newest `frame` note with other algorithms
     leading: false,  // this page's wishes count: it has taken over what counted before
     trace_wanted: false,
 };
@@ -69,7 +69,7 @@ const connection = new Connection(
         },
         lost: () => {
             now.connected = false;
-            now.leading = now.state_fresh = false;
+            now.leading = now.state_fresh = now.trace_wanted = false;
             now.audience = null;
             refresh();
         },
@@ -177,7 +177,7 @@ const kNotes = {
         const before = now.audience;
         now.audience = note;
         if (before?.session && !note.session) forget_session();
-        if (!leads()) now.leading = false;
+        if (!leads()) now.leading = now.trace_wanted = false;
         else if (!now.leading) take_over_soon();
         refresh();
     },
@@ -210,7 +210,7 @@ const kNotes = {
         const note = read_frame(text);
         if (!note) return;
         now.frames[note.stream] = note;
-        if (note.others) now.others = note.others;
+        if (note.others) now.compared = note;
         gantt.add(note);
         stage.frame(note);
         update_panels_soon();
@@ -232,7 +232,7 @@ const kNotes = {
 function forget_session() {
     Object.assign(now, {
         session: null, state: null, state_fresh: false, objects: null,
-        speedup: null, frames: [null, null], others: null,
+        speedup: null, frames: [null, null], compared: null,
         leading: false, trace_wanted: false,
     });
     wishes.forget();
@@ -293,7 +293,7 @@ function update_panels() {
     const streams = stage.split ? [0, 1] : [0];
     const frames = streams.map((stream) => now.frames[stream]).filter(Boolean);
     bars.show(frames);
-    show_frames(frames, now.others);
+    show_frames(frames, now.compared);
     show_links(streams.map((stream) => ({
         plan: stage.stream(stream).plan,
         frame: now.frames[stream],
@@ -407,9 +407,10 @@ function pause() {
     refresh();
 }
 
+// Of the picture that one sees; before there is one, what is asked for.
 const camera_numbers = () => {
     const steered = now.leading && !wishes.want.path ? cameras.to_numbers(wishes.camera) : null;
-    return [steered, stage.stream(0).plan?.camera, now.state?.camera, now.session?.home]
+    return [stage.stream(0).plan?.camera, steered, now.state?.camera, now.session?.home]
         .find(cameras.is_camera) ?? null;
 };
 const camera_text = () => {
@@ -434,8 +435,8 @@ at('gantt-fit').addEventListener('click', () => gantt.reset());
 at('gantt-pause').addEventListener('click', () => gantt.pause(!gantt.paused));
 at('save-frame').addEventListener('click', async () => {
     if (stage.stream(0).drawn?.header.format !== 'png') hint('Waits for the lossless picture');
-    const {header, bytes} = await stage.stream(0).lossless();
-    save(`swath-${header.frame}.png`, [bytes], 'image/png');
+    const drawn = await stage.stream(0).lossless();
+    if (drawn) save(`swath-${drawn.header.frame}.png`, [drawn.bytes], 'image/png');
 });
 at('save-camera').addEventListener('click', () => save('view.camera', [camera_text()], 'text/plain'));
 at('save-timeline').addEventListener('click', () => {

@@ -32,8 +32,8 @@ function legend(text, colour, kind = '') {
     return item;
 }
 
-// The newest `frame` note of each stream that is shown; `others` the newest list of other algorithms.
-export function show_frames(frames, others) {
+// The newest `frame` note of each stream that is shown; `compared` the newest with other algorithms.
+export function show_frames(frames, compared) {
     const first = frames[0];
     const algorithms = frames.map(({algorithm}) => algorithm).join(' and ');
     set_text('frame-note', first ? `${first.frame} · ${algorithms}` : '');
@@ -71,24 +71,26 @@ export function show_frames(frames, others) {
     at('bars').setAttribute('aria-label', first
         ? `What each machine spent: ${spent.join(', ')}`
         : 'What each machine spent on each phase; no frames yet');
-    show_others(others, first);
+    show_others(compared);
 }
 
 const short = (name) => server_number(name) ?? name;
 
-function show_others(others, frame) {
+// Ratios are to the algorithm of their note, whatever is in use by now.
+function show_others(note) {
+    const others = note?.others ?? [];
     const table = at('predictions');
-    fill_table(table, ['Algorithm', 'Frame', 'Compared', 'Overlap', 'Swaps'], (others ?? []).map((other) => [
+    fill_table(table, ['Algorithm', 'Frame', 'Compared', 'Overlap', 'Swaps'], others.map((other) => [
         other.algorithm,
         ms(other.frame),
-        other.algorithm === frame?.algorithm ? 'in use' : `${other.ratio.toFixed(1)}× as long`,
+        other.algorithm === note.algorithm ? 'in use' : `${other.ratio.toFixed(1)}× as long`,
         other.overlap.toFixed(2),
         compact(other.swap_pixels),
     ]));
     const body = table.tBodies[0];
     [...body.rows].forEach((row, place) =>
-        row.classList.toggle('current', others[place].algorithm === frame?.algorithm));
-    if (!others?.length) {
+        row.classList.toggle('current', others[place].algorithm === note.algorithm));
+    if (!others.length) {
         fill_table(table, ['Algorithm'], [['Not known yet: it takes a few frames']]);
     }
 }

@@ -7,7 +7,7 @@ export class Stream {
     #context;
     #received = 0;
     #drawn_place = 0;
-    #waiting = [];
+    #waiting = null;  // takes the next lossless picture
     drawn = null;  // {header, bytes} of what is on the canvas
 
     // on.shown(header) for every picture, on.drawn(stream) after it is on the canvas.
@@ -36,14 +36,21 @@ export class Stream {
     forget() {
         this.#drawn_place = this.#received;
         this.drawn = null;
+        this.#answer_waiting(null);
         this.#canvas.width = this.#canvas.width;
         for (const name of ['frame', 'format', 'width', 'height', 'wish']) delete this.#canvas.dataset[name];
     }
 
-    // The bytes of the newest lossless picture, at once or when it comes.
+    // The newest lossless picture, at once or when it comes; null if another call or forget() was first.
     lossless() {
         if (this.drawn?.header.format === 'png') return Promise.resolve(this.drawn);
-        return new Promise((resolve) => this.#waiting.push(resolve));
+        this.#answer_waiting(null);
+        return new Promise((resolve) => this.#waiting = resolve);
+    }
+
+    #answer_waiting(drawn) {
+        this.#waiting?.(drawn);
+        this.#waiting = null;
     }
 
     // What is drawn, for scripts: {frame, format, width, height, base64}, or null.
@@ -74,8 +81,7 @@ export class Stream {
         Object.assign(this.#canvas.dataset, {
             frame: header.frame, format: header.format, width, height, wish: header.plan?.wish ?? 0,
         });
-        if (header.format === 'png')
-            for (const resolve of this.#waiting.splice(0)) resolve(this.drawn);
+        if (header.format === 'png') this.#answer_waiting(this.drawn);
         this.#on.drawn(this);
     }
 }

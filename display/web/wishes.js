@@ -10,7 +10,7 @@ export class Wishes {
     #send;
     #id = 0;
     #scheduled = false;
-    #input_time = null;  // of the oldest input that no wish has carried yet
+    #input_time = null;  // of the oldest input that the next wish carries
     #inputs = new Map();  // wish id to time of its input
     #camera = null;
     #since = new Map();  // field to the first wish that has or will have its value
@@ -27,6 +27,7 @@ export class Wishes {
     // anybody wished before.
     adopt(state, camera) {
         this.#camera = camera;
+        this.#input_time = null;
         for (const field of kFields)
             if (state?.[field] !== undefined) this.want[field] = state[field];
         Object.assign(this.want, kNoCounts);
@@ -71,13 +72,14 @@ export class Wishes {
         this.#scheduled = true;
         requestAnimationFrame(() => {
             this.#scheduled = false;
+            const input_time = this.#input_time;
+            this.#input_time = null;
             if (!this.#camera) return;
             const wish = {type: 'wish', id: this.#id + 1, camera: to_numbers(this.#camera), ...this.want};
             if (!this.#send(wish)) return;
             this.#id = wish.id;
             this.sent = wish;
-            if (this.#input_time !== null) this.#inputs.set(wish.id, this.#input_time);
-            this.#input_time = null;
+            if (input_time !== null) this.#inputs.set(wish.id, input_time);
         });
     }
 }

@@ -291,6 +291,27 @@ TEST_F(DisplayTest, PassesWishesAndNotesBetweenClientAndViewers) {
     EXPECT_EQ(next(*looks, R"({"type":"state")"), R"({"type":"state","wish":3})");
 }
 
+TEST_F(DisplayTest, PassesTheNewestWishWhenTheClientHasTakenTheLastOne) {
+    view();
+    const auto looks = viewer();
+    const auto one = client();
+    one->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2, true});
+    one->expect<Ready>();
+    one->expect<Audience>();
+    for (int id = 1; id <= 5; ++id) looks->send(fmt::format(R"({{"type":"wish","id":{}}})", id));
+    one->expect<Wish>();
+    // What comes after a later wish is not read before it.
+    looks->send(R"({"type":"wish","id":6})");
+    const auto second = viewer();
+    EXPECT_EQ(one->expect<Audience>(), Audience{2});
+    one->send(Note{NoteTopic::kState, 0}, buffer_of(R"({"type":"state"})"));
+    for (std::string text; text.find(R"("id":6)") == std::string::npos;) {
+        ASSERT_EQ(one->expect<Wish>(), Wish{1});
+        text.assign(reinterpret_cast<const char*>(one->body.data()), one->body.size());
+        one->send(Note{NoteTopic::kState, 0}, buffer_of(R"({"type":"state"})"));
+    }
+}
+
 TEST_F(DisplayTest, EndsAClientWhoseNotesAreNone) {
     view();
     const auto looks = viewer();

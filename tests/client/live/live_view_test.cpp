@@ -158,7 +158,7 @@ TEST_F(LiveViewTest, DoesNotTryARefusedSetupAgainUntilAnotherIsWishedFor) {
     live_.on_viewers(1);
     draw_all();
     wish(R"({"renderer":"egl"})");
-    live_.on_setup_refused("server 1: no EGL");
+    live_.on_setup_refused(*live_.wanted_setup(), "server 1: no EGL");
     EXPECT_EQ(live_.refused(), (Refusals{{"renderer", "server 1: no EGL"}}));
     EXPECT_EQ(live_.setup().renderer, RendererKind::kOsmesa);
     wish(R"({"renderer":"egl","camera":[0,0,8,0,0,0,0,1,0,30]})");
@@ -169,6 +169,38 @@ TEST_F(LiveViewTest, DoesNotTryARefusedSetupAgainUntilAnotherIsWishedFor) {
     EXPECT_EQ(live_.wanted_setup(), std::nullopt);
     wish(R"({"renderer":"egl"})");
     EXPECT_TRUE(live_.wanted_setup().has_value());
+}
+
+TEST_F(LiveViewTest, TriesWhatWasWishedForWhileAnotherSetupWasRefused) {
+    live_.on_viewers(1);
+    draw_all();
+    wish(R"({"renderer":"egl"})");
+    const LiveSetup tried = *live_.wanted_setup();
+    wish(R"({"renderer":"osmesa","objects":6000})");
+    live_.on_setup_refused(tried, "no EGL");
+    EXPECT_THAT(live_.refused(), IsEmpty());
+    EXPECT_EQ(live_.wanted_setup(), (LiveSetup{6000, RendererKind::kOsmesa, CullAlgorithm::kWide}));
+}
+
+TEST_F(LiveViewTest, TellsTheWishedSetupUnlessItIsRefused) {
+    wish(R"({"renderer":"egl"})");
+    EXPECT_EQ(live_.accepted_setup().renderer, RendererKind::kEgl);
+    live_.on_setup_refused(*live_.wanted_setup(), "no EGL");
+    EXPECT_EQ(live_.accepted_setup().renderer, RendererKind::kOsmesa);
+}
+
+TEST_F(LiveViewTest, RefusesCamerasThatSinglePrecisionCannotProject) {
+    live_.on_viewers(1);
+    draw_all();
+    for (const char* camera : {"[0,0,9,0,0,0,0,1,0,1e-38]", "[0,0,1e12,0,0,0,0,1,0,30]"}) {
+        wish(std::string(R"({"camera":)") + camera + "}");
+        EXPECT_EQ(live_.refused().count("camera"), 1u) << camera;
+        EXPECT_EQ(live_.wish().camera, settings().start.camera);
+        EXPECT_FALSE(live_.wants_frame());
+    }
+    wish(R"({"camera":[0,0,1000,0,0,0,0,1,0,30]})");
+    EXPECT_THAT(live_.refused(), IsEmpty());
+    EXPECT_TRUE(live_.wants_frame());
 }
 
 TEST_F(LiveViewTest, SaysWhatOfAWishCannotBeHad) {

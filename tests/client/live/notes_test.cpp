@@ -59,7 +59,7 @@ TEST(Notes, OfTheStateSayWhatCountsAndWhatIsRefused) {
     EXPECT_EQ(note["by"], 9);
     EXPECT_EQ(note["against"], "mahd");
     EXPECT_EQ(note["servers"], 2);
-    EXPECT_EQ(note["renderer"], "osmesa");  // in effect
+    EXPECT_EQ(note["renderer"], "egl");
     EXPECT_EQ(note["path"], "orbit");
     EXPECT_EQ(note["busy"], "changing");
     EXPECT_EQ(note["command"], "swath-client x");
