@@ -98,6 +98,20 @@ TEST_F(Live, CutsDrawsAndCullsDifferentlyWithoutARestartAndWithoutChangingThePic
     expect_end(*client);
 }
 
+TEST_F(Live, ChangesBackAndForthWhileAPathPlays) {
+    const auto client = start_client({"--local", "2"});
+    LiveViewer viewer(page(*client));
+    viewer.wish(home_);
+    viewer.wish({{"path", "orbit"}});
+    std::uint64_t id = 0;
+    for (int i = 0; i < 6; ++i)
+        for (const int objects : {60, 1500}) id = viewer.wish({{"objects", objects}});
+    viewer.picture(
+        [&](const auto& p) { return p.header["plan"].is_object() && p.header["plan"]["wish"] == id; });
+    EXPECT_EQ(viewer.note("state", [&](const Json& note) { return note["wish"] == id; })["objects"], 1500);
+    expect_end(*client);
+}
+
 TEST_F(Live, RefusesWhatCannotBeHadAndDrawsTheRest) {
     const auto client = start_client({"--local", "2"});
     LiveViewer viewer(page(*client));
