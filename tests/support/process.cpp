@@ -15,7 +15,7 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 extern char** environ;
@@ -49,8 +49,10 @@ std::array<int, 2> make_pipe() {
 }
 
 std::string read_all(const std::string& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
+    // Not by iterators, which throw when a process vanishes while its file is read.
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
 }
 
 // The state letter and the parent in /proc/PID/stat, whose second field may contain anything.
