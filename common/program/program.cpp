@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -62,7 +63,12 @@ void announce(const Address& address) {
 }
 
 int run_until_stopped(asio::io_context& io, const ProgramOptions& options) {
-    asio::signal_set signals(io, SIGINT, SIGTERM);
+    asio::signal_set signals(io, SIGTERM);
+    // A terminal's Ctrl-C reaches all programs; one on a lifeline leaves it to the one that started it.
+    if (options.lifeline)
+        ::signal(SIGINT, SIG_IGN);
+    else
+        signals.add(SIGINT);
     // Work in progress (a frame, a model being read) is dropped rather than waited for.
     const auto leave = [](int code) {
         spdlog::shutdown();

@@ -32,8 +32,8 @@ void start_log(const std::string& program, const ProgramOptions& options);
 // Prints "listening HOST:PORT" to stdout, for whoever started the program with port 0.
 void announce(const Address& address);
 
-// Runs `io` until SIGINT or SIGTERM, or, with a lifeline, until stdin closes: the program that started us has
-// gone.
+// Runs `io` until SIGINT or SIGTERM; with a lifeline until SIGTERM or until stdin closes: the program that
+// started us has gone.
 int run_until_stopped(boost::asio::io_context& io, const ProgramOptions& options);
 
 // $XDG_CACHE_HOME/swath, else ~/.cache/swath.

@@ -112,6 +112,16 @@ TEST_F(Live, ChangesBackAndForthWhileAPathPlays) {
     expect_end(*client);
 }
 
+// A terminal's Ctrl-C reaches every program of the run.
+TEST_F(Live, EndsWellWhenAllOfItsProgramsAreInterrupted) {
+    const auto client = start_client({"--local", "2"});
+    LiveViewer viewer(page(*client));
+    viewer.still(viewer.wish(home_));
+    for (const pid_t program : living_descendants(client->pid())) ::kill(program, SIGINT);
+    viewer.still(viewer.wish({{"width", 200}}));  // nobody has left
+    expect_end(*client);
+}
+
 TEST_F(Live, RefusesWhatCannotBeHadAndDrawsTheRest) {
     const auto client = start_client({"--local", "2"});
     LiveViewer viewer(page(*client));
