@@ -60,6 +60,14 @@ class DisplayTest : public testing::Test {
         }
         return made;
     }
+    // One whose run takes wishes; somebody looks.
+    std::unique_ptr<Peer> live_client() {
+        auto made = client();
+        made->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2, true});
+        made->expect<Ready>();
+        made->expect<Audience>();
+        return made;
+    }
     static AssembleFrame task(FrameNumber frame, const std::vector<Exchange>& tiles) {
         return {frame, 4, 2, {9, 9, 9}, tiles};
     }
@@ -279,10 +287,7 @@ TEST_F(DisplayTest, ShowsViewersThePicturesThatTheClientGets) {
 TEST_F(DisplayTest, PassesWishesAndNotesBetweenClientAndViewers) {
     view();
     const auto looks = viewer();
-    const auto one = client();
-    one->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2, true});
-    one->expect<Ready>();
-    one->expect<Audience>();
+    const auto one = live_client();
     const std::string wish = R"({"type": "wish", "id": 3})";
     looks->send(wish);
     EXPECT_EQ(one->expect<Wish>(), Wish{1});
@@ -294,10 +299,7 @@ TEST_F(DisplayTest, PassesWishesAndNotesBetweenClientAndViewers) {
 TEST_F(DisplayTest, PassesTheNewestWishWhenTheClientHasTakenTheLastOne) {
     view();
     const auto looks = viewer();
-    const auto one = client();
-    one->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2, true});
-    one->expect<Ready>();
-    one->expect<Audience>();
+    const auto one = live_client();
     for (int id = 1; id <= 5; ++id) looks->send(fmt::format(R"({{"type":"wish","id":{}}})", id));
     one->expect<Wish>();
     // What comes after a later wish is not read before it.
