@@ -53,9 +53,11 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     auto* local =
         app.add_option("--local", options.local, "start a display and this many servers on this machine [4]")
             ->check(CLI::Range(std::size_t{1}, kMaxLocalServers));
-    auto* remote = app.add_option("--servers", servers, "HOST:PORT,... of running swath-server programs")
-                       ->delimiter(',')
-                       ->allow_extra_args(false);  // MODEL may follow
+    auto* remote =
+        app.add_option("--servers", servers,
+                       "HOST:PORT,... of running servers, dns:NAME:PORT or file:LIST; later ones join")
+            ->delimiter(',')
+            ->allow_extra_args(false);  // MODEL may follow
     auto* remote_display = app.add_option("--display", display, "HOST:PORT of a running swath-display");
     auto* single =
         app.add_flag("--single", options.single, "render here, in one process: the reference picture");
@@ -143,14 +145,11 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         !options.timeline.ends_with(".json"))
         return refuse(
             {fmt::format("--timeline: '{}': the name must end in .csv or .json", options.timeline)});
-    for (const std::string& text : servers) {
-        const auto address = parse_address(text);
-        if (!address) return refuse({"--servers: " + address.error().message});
-        options.servers.push_back(*address);
+    if (!servers.empty()) {
+        const auto source = parse_server_source(servers);
+        if (!source) return refuse({"--servers: " + source.error().message});
+        options.servers = *source;
     }
-    if (options.servers.size() > kMaxServers)
-        return refuse(
-            {fmt::format("--servers: {} addresses, the limit is {}", options.servers.size(), kMaxServers)});
     if (!display.empty()) {
         const auto address = parse_address(display);
         if (!address) return refuse({"--display: " + address.error().message});

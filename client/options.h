@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "client/live/wish.h"
+#include "client/machines/server_source.h"
 #include "client/partition/partitioner.h"
 #include "common/cull/cull_algorithm.h"
 #include "common/image/picture.h"
@@ -19,7 +20,7 @@ struct ClientOptions {
     std::string model;
     bool single = false;
     std::size_t local = 4;  // servers to start here, unless `servers` are given
-    std::vector<Address> servers;
+    std::optional<ServerSource> servers;
     std::optional<Address> display;
     Algorithm algorithm = Algorithm::kHybrid;
     RendererKind renderer = RendererKind::kOsmesa;

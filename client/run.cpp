@@ -42,12 +42,11 @@ Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) 
 }
 
 // What a live run starts with: the path's first camera.
-Result<LiveView::Settings> live_settings(const ClientOptions& options, std::size_t servers,
-                                         const ObjectSet& scene, const Camera& home) {
+Result<LiveView::Settings> live_settings(const ClientOptions& options, const ObjectSet& scene,
+                                         const Camera& home) {
     LiveView::Settings live;
     live.bounds = scene.bounds;
     live.limits = options.view_limits;
-    live.limits.servers = servers;
     live.seed = options.seed;
     live.start.camera = numbers_of(home);
     if (const auto camera = camera_of(live.start.camera); !camera)
@@ -55,7 +54,6 @@ Result<LiveView::Settings> live_settings(const ClientOptions& options, std::size
     live.start.width = std::min(options.width, live.limits.max_width);
     live.start.height = std::min(options.height, live.limits.max_height);
     live.start.algorithm = options.algorithm;
-    live.start.servers = servers;
     live.start.setup = {options.granularity.depth ? scene.objects.size() : options.granularity.objects,
                         options.renderer, options.cull};
     return live;
@@ -73,13 +71,18 @@ std::string quoted(const std::string& word) {
 }
 
 // The command that draws what a live run shows, with the camera in a file.
-std::string command_of(const ClientOptions& options, const LiveWish& wish, int octree_depth) {
-    std::string where = fmt::format("--local {}", wish.servers);
+std::string command_of(const ClientOptions& options, const LiveWish& wish,
+                       const std::vector<Address>& servers, int octree_depth) {
+    const std::size_t count = std::min(wish.servers.value_or(servers.size()), servers.size());
+    std::string where = fmt::format("--local {}", count);
     if (options.display) {
-        std::string servers;
-        for (std::size_t i = 0; i < wish.servers; ++i)
-            servers += (i > 0 ? "," : "") + to_string(options.servers[i]);
-        where = fmt::format("--servers {} --display {}", servers, to_string(*options.display));
+        ServerSource source = *options.servers;
+        if (wish.servers) {
+            source = {};
+            source.list.assign(servers.begin(), servers.begin() + static_cast<std::ptrdiff_t>(count));
+        }
+        where =
+            fmt::format("--servers {} --display {}", quoted(to_string(source)), to_string(*options.display));
     }
     return fmt::format(
         "swath-client {} {} --algorithm {} --renderer {} --cull {} --octree-depth {} --size {}x{} "
@@ -97,7 +100,7 @@ Status save_timeline(const std::string& file, const std::vector<FrameTimeline>& 
 
 }  // namespace
 
-Status run_client(const ClientOptions& options) {
+Status run_client(const ClientOptions& options, StopSignals& signals) {
     const SteadyClock clock;
     const Nanoseconds begin = clock.now();
     auto mesh = load_model(options.model);
@@ -140,13 +143,14 @@ Status run_client(const ClientOptions& options) {
     } else {
         std::unique_ptr<LocalCluster> local;
         ClusterJob job;
-        job.servers = options.servers;
-        if (options.display) job.display = *options.display;
-        if (options.servers.empty()) {
+        if (options.servers) {
+            job.servers = *options.servers;
+            job.display = *options.display;
+        } else {
             auto started = start_local(options);
             if (!started) return tl::unexpected(started.error());
             local = std::move(*started);
-            job.servers = local->servers();
+            job.servers.list = local->servers();
             job.display = local->display();
         }
         // Servers elsewhere look for the file under the path that it has here.
@@ -158,14 +162,15 @@ Status run_client(const ClientOptions& options) {
         job.cull = options.cull;
         job.algorithm = options.algorithm;
         if (options.view) {
-            auto live = live_settings(options, job.servers.size(), scene, cameras->front());
+            auto live = live_settings(options, scene, cameras->front());
             if (!live) return tl::unexpected(live.error());
             job.live = std::move(*live);
         } else {
             job.cameras = std::move(*cameras);
         }
-        job.command = [&options](const LiveWish& wish, int octree_depth) {
-            return command_of(options, wish, octree_depth);
+        job.command = [&options](const LiveWish& wish, const std::vector<Address>& servers,
+                                 int octree_depth) {
+            return command_of(options, wish, servers, octree_depth);
         };
         job.width = options.width;
         job.height = options.height;
@@ -176,10 +181,9 @@ Status run_client(const ClientOptions& options) {
         job.connect_patience = std::chrono::duration_cast<Nanoseconds>(
             std::chrono::duration<double>(options.connect_patience_s));
         job.timing = options.timing;
-        const std::size_t servers = job.servers.size();
         frames = run_cluster(
-            std::move(job), clock,
-            [&](const std::string& page) {
+            std::move(job), clock, signals,
+            [&](const std::string& page, std::size_t servers) {
                 spdlog::info("{} servers and the display are ready after {:.2f} s", servers,
                              std::chrono::duration<double>(clock.now() - begin).count());
                 if (options.view) std::cout << "viewer " << page << std::endl;

@@ -1,6 +1,7 @@
 #include <iostream>
 
 #include "common/base/allocator.h"
+#include "common/program/health.h"
 #include "common/program/program.h"
 #include "display/session/display.h"
 
@@ -9,6 +10,7 @@ int main(int argc, char** argv) {
     DisplayOptions options;
     std::string listen = "127.0.0.1:4100";
     std::string view;
+    std::string view_at;
     ProgramOptions program;
 
     CLI::App app{
@@ -20,25 +22,39 @@ int main(int argc, char** argv) {
                    "HOST:PORT to listen on; port 0 takes a free one. There is no authentication: listen\n"
                    "beyond loopback only in a network you trust")
         ->capture_default_str();
-    app.add_option(
-           "--view", view,
-           "[HOST:]PORT at which a browser sees the run and steers it, on 127.0.0.1 unless HOST says\n"
-           "otherwise; port 0 takes a free one. Beyond loopback it needs the token in the address that\n"
-           "is printed, and is not encrypted")
-        ->type_name("[HOST:]PORT");
+    auto* viewed =
+        app.add_option(
+               "--view", view,
+               "[HOST:]PORT at which a browser sees the run and steers it, on 127.0.0.1 unless HOST says\n"
+               "otherwise; port 0 takes a free one. Beyond loopback it needs the token in the address that\n"
+               "is printed, and is not encrypted")
+            ->type_name("[HOST:]PORT");
+    app.add_option("--view-at", view_at,
+                   "HOST:PORT at which people reach --view, where something (a container engine, a tunnel)\n"
+                   "passes it on: that address is printed, and if it is loopback no token is asked for")
+        ->needs(viewed);
     add_program_options(app, program, options.timing);
-    add_lifeline_option(app, program);
+    add_waiting_options(app, program);
     if (const auto code = parse_options(app, argc, argv)) return *code;
     start_log("swath-display", program);
 
     const auto address = parse_address(listen);
     if (!address) return usage_error({"--listen: " + address.error().message});
     options.listen = *address;
+    if (program.health) {
+        const Status health = check_health(*address, Role::kDisplay);
+        return health ? kExitDone : run_error(health.error());
+    }
     WebServer::Options web;
     if (!view.empty()) {
         const auto at = parse_local_address(view);
         if (!at) return usage_error({"--view: " + at.error().message});
         web.listen = *at;
+        if (!view_at.empty()) {
+            const auto published = parse_address(view_at);
+            if (!published) return usage_error({"--view-at: " + published.error().message});
+            web.published = *published;
+        }
     }
     tune_allocator();
 
@@ -55,5 +71,5 @@ int main(int argc, char** argv) {
     if (!display) return run_error(display.error());
     announce((*display)->address());
     if (viewers) std::cout << "viewer " << viewers->url() << std::endl;
-    return run_until_stopped(io, program);
+    return run_until_stopped(io, **display, program);
 }

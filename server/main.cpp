@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "common/base/allocator.h"
+#include "common/program/health.h"
 #include "common/program/program.h"
 #include "server/session/server.h"
 
@@ -33,13 +34,17 @@ int main(int argc, char** argv) {
         ->each([&](const std::string& v) { options.max_model_bytes = std::stoull(v) << 20; });
     add_threads_option(app, threads);
     add_program_options(app, program, options.timing);
-    add_lifeline_option(app, program);
+    add_waiting_options(app, program);
     if (const auto code = parse_options(app, argc, argv)) return *code;
     start_log("swath-server", program);
 
     const auto address = parse_address(listen);
     if (!address) return usage_error({"--listen: " + address.error().message});
     options.listen = *address;
+    if (program.health) {
+        const Status health = check_health(*address, Role::kServer);
+        return health ? kExitDone : run_error(health.error());
+    }
     options.cache = cache;
     options.cull_threads = drawing_threads(threads);
     set_raster_threads(threads);
@@ -50,5 +55,5 @@ int main(int argc, char** argv) {
     const auto server = make_server(io, options, clock, make_renderer);
     if (!server) return run_error(server.error());
     announce((*server)->address());
-    return run_until_stopped(io, program);
+    return run_until_stopped(io, **server, program);
 }

@@ -11,9 +11,7 @@
 
 #include "client/cost/frame_work.h"
 #include "common/base/check.h"
-#include "common/scene/model_blob.h"
 #include "common/timeline/phase_timer.h"
-#include "common/wire/listener.h"
 
 namespace swath {
 namespace {
@@ -27,39 +25,64 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
       job_(std::move(job)),
       clock_(clock),
       handlers_(std::move(handlers)),
-      digest_(digest(job_.blob.bytes())),
       director_(job_.live ? Director::live(job_.frames_in_flight)
                           : Director(job_.cameras.size(), job_.frames_in_flight)),
       broadcast_([this](NoteTopic topic, FrameNumber frame, const std::string& text) {
           Buffer body(text.size());
           std::memcpy(body.data(), text.data(), text.size());
           // A display that does not take it is found out by the next frame.
-          (void)offer(peers_.back(), Note{topic, frame}, std::move(body));
+          (void)machines_->tell_display(Note{topic, frame}, std::move(body));
       }),
-      drawing_{job_.scene->depth, job_.renderer, job_.cull} {
+      drawing_{job_.scene->depth, job_.renderer, job_.cull},
+      patience_(io) {
     if (job_.live) live_.emplace(*job_.live);
     use(job_.scene);
-    for (std::size_t i = 0; i < job_.servers.size(); ++i) {
-        Peer& peer = peers_.emplace_back();
-        peer.address = to_string(job_.servers[i]);
-        peer.who = fmt::format("server {} at {}", i, peer.address);
-    }
-    Peer& display = peers_.emplace_back();
-    display.role = Role::kDisplay;
-    display.address = to_string(job_.display);
-    display.who = fmt::format("display at {}", display.address);
 }
 
 void ClusterRun::start() {
-    for (std::size_t i = 0; i < peers_.size(); ++i)
-        connect(i, i < job_.servers.size() ? job_.servers[i] : job_.display);
+    Machines::Job job;
+    job.servers = job_.servers;
+    job.display = job_.display;
+    job.model = job_.model;
+    job.blob = std::move(job_.blob);
+    job.drawing = drawing_;
+    job.objects = job_.scene->objects.size();
+    job.format = job_.format;
+    job.frames_in_flight = job_.frames_in_flight;
+    job.live = live_.has_value();
+    job.session = job_.session;
+    job.patience = job_.connect_patience;
+    job.timing = job_.timing;
+    const std::weak_ptr<ClusterRun> weak = weak_from_this();
+    Machines::Handlers handlers;
+    handlers.on_started = [weak](const std::string& page) {
+        const auto self = weak.lock();
+        return self ? self->on_started(page) : Status();
+    };
+    handlers.on_members = [weak] {
+        if (const auto self = weak.lock()) self->on_members();
+    };
+    handlers.on_server = [weak](ServerId server, Message&& message, Buffer&&) {
+        const auto self = weak.lock();
+        return self ? self->on_server(server, std::move(message)) : Status();
+    };
+    handlers.on_display = [weak](Message&& message, Buffer&& body) {
+        const auto self = weak.lock();
+        return self ? self->on_display(std::move(message), body) : Status();
+    };
+    handlers.on_lost = [weak](const std::string& who, const std::string& why) {
+        // run() of an abort cannot fail.
+        if (const auto self = weak.lock()) (void)self->run(self->director_.on_lost(who, why));
+    };
+    machines_ = std::make_shared<Machines>(io_, std::move(job), clock_, std::move(handlers));
+    machines_->start();
 }
 
 void ClusterRun::stop() {
     over_ = true;
     cutter_.reset();
-    for (Peer& peer : peers_)
-        if (peer.connection) peer.connection->close();
+    patience_.cancel();
+    machines_->stop();
     handlers_ = {};
 }
 
@@ -74,150 +97,87 @@ void ClusterRun::finish(Result<std::vector<FrameTimeline>> result) {
     if (over_) return;
     over_ = true;
     cutter_.reset();
-    for (Peer& peer : peers_) {
-        if (!peer.connection) continue;
-        if (result)
-            peer.connection->finish();
-        else
-            peer.connection->fail_with({"the run ended: " + result.error().message});
-    }
+    patience_.cancel();
+    machines_->finish(result ? Status() : fail("the run ended: {}", result.error().message));
     boost::asio::post(io_, [self = shared_from_this(), result = std::move(result)]() mutable {
         if (self->handlers_.on_done) self->handlers_.on_done(std::move(result));
         self->handlers_ = {};
     });
 }
 
-// --- connecting and setting up
+// --- who takes part
 
-void ClusterRun::connect(std::size_t i, const Address& address) {
-    async_connect(
-        io_, address, job_.connect_patience,
-        [self = shared_from_this(), i](Result<boost::asio::ip::tcp::socket> socket) {
-            if (self->over_) return;
-            if (!socket) return self->lost(i, socket.error().message);
-            Connection::Options options;
-            options.hello.role = Role::kClient;
-            options.timing = self->job_.timing;
-            Peer& peer = self->peers_[i];
-            peer.connection = std::make_shared<Connection>(std::move(*socket), options, self->clock_);
-            peer.connection->start({[self, i](const Hello& hello) -> Status {
-                                        Peer& greeter = self->peers_[i];
-                                        if (hello.role != greeter.role)
-                                            return fail("this is a {}, a {} is expected", name(hello.role),
-                                                        name(greeter.role));
-                                        greeter.greeted = true;
-                                        if (std::all_of(self->peers_.begin(), self->peers_.end(),
-                                                        [](const Peer& p) { return p.greeted; }))
-                                            self->set_up();
-                                        return {};
-                                    },
-                                    [self, i](Message&& message, Buffer&& body) {
-                                        return self->on_message(i, std::move(message), std::move(body));
-                                    },
-                                    [self, i](const Status& why) {
-                                        self->lost(i, why ? "ended the session" : why.error().message);
-                                    }});
-        });
+Status ClusterRun::on_started(const std::string& page) {
+    if (live_) live_->on_servers(machines_->members().size());
+    tell_session();
+    handlers_.on_ready(page, machines_->members().size());
+    if (const auto status = run(director_.on_start()); !status) return status;
+    return follow_wish();
 }
 
-void ClusterRun::set_up() {
-    ServerSetup setup;
-    setup.session = job_.session;
-    setup.model = job_.model;
-    setup.digest = digest_;
-    setup.blob_bytes = job_.blob.size();
-    setup.drawing = drawing_;
-    for (const Address& address : job_.servers) setup.servers.push_back(to_string(address));
-    setup.display = to_string(job_.display);
-    setup.frames_in_flight = job_.frames_in_flight;
-    const auto servers = static_cast<std::uint32_t>(job_.servers.size());
-    for (std::size_t i = 0; i < peers_.size(); ++i) {
-        setup.server = server_id(i < servers ? i : 0);
-        const Status status = i < servers
-                                  ? offer(peers_[i], setup)
-                                  : offer(peers_[i], DisplaySetup{job_.session, servers, job_.format,
-                                                                  job_.frames_in_flight, live_.has_value()});
-        if (!status) return lost(i, status.error().message);
-    }
-}
-
-Status ClusterRun::offer(const Peer& peer, const Message& message, Buffer body) {
-    const auto sent = peer.connection->offer(message, std::move(body));
-    return sent ? Status{} : tl::unexpected(sent.error());
-}
-
-Status ClusterRun::on_message(std::size_t i, Message&& message, Buffer&& body) {
-    if (over_) return {};
-    Peer& peer = peers_[i];
-    if (const auto* need = std::get_if<NeedModel>(&message)) return send_model_part(peer, need->offset);
-    if (const auto* ready = std::get_if<Ready>(&message)) return on_ready(peer, *ready);
-    if (std::holds_alternative<Connected>(message)) {
-        peer.connected = true;
-        if (started_ || !std::all_of(peers_.begin(), peers_.end(),
-                                     [](const Peer& p) { return p.role == Role::kDisplay || p.connected; }))
-            return {};
-        started_ = true;
-        handlers_.on_ready(page_);
-        if (const auto status = run(director_.on_start()); !status) return status;
-        return follow_wish();
-    }
-    if (const auto* report = std::get_if<ServerReport>(&message);
-        report != nullptr && peer.role == Role::kServer)
-        return on_server_report(i, *report);
-    if (const auto* report = std::get_if<DisplayReport>(&message);
-        report != nullptr && peer.role == Role::kDisplay)
-        return on_report(i, *report, body);
-    if (const auto* audience = std::get_if<Audience>(&message);
-        audience != nullptr && peer.role == Role::kDisplay)
-        return on_audience(*audience);
-    if (const auto* wish = std::get_if<Wish>(&message); wish != nullptr && peer.role == Role::kDisplay)
-        return on_wish(*wish, body);
-    return fail("{} is not expected from a {}", name(message), name(peer.role));
-}
-
-Status ClusterRun::send_model_part(const Peer& peer, std::uint64_t offset) {
-    if (offset >= job_.blob.size()) return fail("NeedModel: offset {} of {}", offset, job_.blob.size());
-    const std::size_t bytes =
-        std::min<std::size_t>(kModelPartBytes, job_.blob.size() - static_cast<std::size_t>(offset));
-    Buffer body(bytes);
-    std::memcpy(body.data(), job_.blob.data() + offset, bytes);
-    return offer(peer, ModelPart{offset}, std::move(body));
-}
-
-Status ClusterRun::on_ready(Peer& peer, const Ready& ready) {
-    if (change_.under_way() && peer.role == Role::kServer) return on_changed(ready);
-    if (peer.role == Role::kServer && ready.objects != job_.scene->objects.size())
-        return fail("cut the model into {} objects, this client into {}", ready.objects,
-                    job_.scene->objects.size());
-    if (peer.ready) return fail("Ready came twice");
-    peer.ready = true;
-    if (peer.role == Role::kDisplay) {
-        page_ = ready.description;
-        if (live_ && page_.empty()) return fail("has no page to look at: start it with --view");
+void ClusterRun::on_members() {
+    if (over_) return;
+    const std::size_t servers = machines_->members().size();
+    spdlog::info("{} servers take part", servers);
+    tell_session();
+    Status status;
+    if (servers == 0) {
+        await_servers();
+        status = run(director_.on_reconfigure());
     } else {
-        peer.description = ready.description;
+        if (live_) live_->on_servers(servers);
+        patience_.cancel();
+        status = std::exchange(awaiting_servers_, false) ? change_setup() : follow_wish();
+        if (live_) tell_state();
     }
-    if (!std::all_of(peers_.begin(), peers_.end(), [](const Peer& p) { return p.ready; })) return {};
+    if (!status) finish(tl::unexpected(status.error()));
+}
+
+// Who looks may as well wait for one; a run along a path has an end to come to.
+void ClusterRun::await_servers() {
+    if (live_) return;
+    patience_.expires_after(job_.connect_patience);
+    patience_.async_wait([weak = weak_from_this()](const boost::system::error_code& stopped) {
+        if (const auto self = weak.lock(); self && !stopped) self->finish(fail("no server is left"));
+    });
+}
+
+void ClusterRun::tell_session() {
     // Viewers are told the file's name, not where it lies.
     SessionFacts facts{std::filesystem::path(job_.model).filename().string(),
                        job_.scene->mesh.triangle_count(),
                        job_.scene->bounds,
                        {},
                        job_.background};
-    for (const Peer& p : peers_)
-        if (p.role == Role::kServer) {
-            facts.servers.push_back({p.address, p.description});
-            if (const auto status = offer(p, Connect{}); !status) return status;
-        }
+    for (const ServerId server : machines_->members())
+        facts.servers.push_back({to_string(machines_->address(server)), machines_->renderer(server)});
     broadcast_.on_session(std::move(facts), live_ ? &*live_ : nullptr,
                           job_.live ? job_.live->limits : WishLimits{});
-    return {};
 }
 
-void ClusterRun::lost(std::size_t i, const std::string& why) {
-    if (over_) return;
-    // run() of an abort cannot fail.
-    (void)run(director_.on_lost(peers_[i].who, why));
+Status ClusterRun::on_server(ServerId server, Message&& message) {
+    const auto* report = std::get_if<ServerReport>(&message);
+    if (report == nullptr) return fail("{} is not expected from a server", name(message));
+    const auto found = frames_.find(report->frame);
+    if (found == frames_.end()) return fail("a report for frame {}, which is not open", report->frame);
+    const auto& servers = found->second.servers;
+    const auto place = std::lower_bound(servers.begin(), servers.end(), server);
+    if (place == servers.end() || *place != server)
+        return fail("a report for frame {}, in which it takes no part", report->frame);
+    if (const auto status = costs_->on_report(report->frame, server, report->visible); !status) return status;
+    return on_report(1 + static_cast<std::size_t>(place - servers.begin()), *report,
+                     machines_->clock_offset(server), {});
+}
+
+Status ClusterRun::on_display(Message&& message, const Buffer& body) {
+    if (const auto* report = std::get_if<DisplayReport>(&message)) {
+        const auto found = frames_.find(report->frame);
+        if (found == frames_.end()) return fail("a report for frame {}, which is not open", report->frame);
+        return on_report(1 + found->second.servers.size(), *report, machines_->display_clock_offset(), body);
+    }
+    if (const auto* audience = std::get_if<Audience>(&message)) return on_audience(*audience);
+    if (const auto* wish = std::get_if<Wish>(&message)) return on_wish(*wish, body);
+    return fail("{} is not expected from a display", name(message));
 }
 
 // --- frames
@@ -253,7 +213,7 @@ FrameOrder ClusterRun::order_of(FrameNumber number) {
     order.width = job_.width;
     order.height = job_.height;
     order.algorithm = job_.algorithm;
-    order.servers = job_.servers.size();
+    order.servers = machines_->members().size();
     return order;
 }
 
@@ -274,40 +234,45 @@ Status ClusterRun::issue(FrameNumber number) {
         throw CheckFailed(fmt::format("frame {}: {}", number, *wrong));
 
     AssembleFrame assemble{number, order.width, order.height, job_.background, {}, order.stream};
+    // A plan has places, messages have the servers' numbers; both ascend.
+    OpenFrame& frame = frames_[number];
+    frame.servers.assign(machines_->members().begin(),
+                         machines_->members().begin() + static_cast<std::ptrdiff_t>(plan.servers.size()));
+    machines_->on_issued(frame.servers);
     std::vector<RenderFrame> tasks(plan.servers.size());
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         const ServerShare& share = plan.servers[i];
         tasks[i] = {number, view, share.group, share.content, final_region(plan, server_id(i)), {}, {}};
-        if (!tasks[i].final_region.empty()) assemble.tiles.push_back({server_id(i), tasks[i].final_region});
+        if (!tasks[i].final_region.empty())
+            assemble.tiles.push_back({frame.servers[i], tasks[i].final_region});
     }
     for (Transfer& t : transfers(plan)) {
-        tasks[index(t.from)].outgoing.push_back({t.to, t.region});
-        tasks[index(t.to)].incoming.push_back({t.from, std::move(t.region)});
+        tasks[index(t.from)].outgoing.push_back({frame.servers[index(t.to)], t.region});
+        tasks[index(t.to)].incoming.push_back({frame.servers[index(t.from)], std::move(t.region)});
     }
 
-    OpenFrame& frame = frames_[number];
     FrameTimeline& timeline = frame.finished.timeline;
     timeline.frame = number;
     timeline.overlap_factor = overlap_factor(plan, job_.scene->objects);
-    timeline.machines.resize(1 + peers_.size());
-    timeline.machines[0].machine = "client";
-    for (std::size_t i = 0; i < peers_.size(); ++i)
-        timeline.machines[1 + i].machine =
-            peers_[i].role == Role::kDisplay ? "display" : server_name(server_id(i));
+    timeline.machines.resize(2 + tasks.size());
+    timeline.machines.front().machine = "client";
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+        timeline.machines[1 + i].machine = server_name(server_id(i));
+    timeline.machines.back().machine = "display";
 
     // A server without pixels takes no part in the frame.
     std::map<ServerId, std::vector<ObjectId>> groups;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         if (tasks[i].content.empty() && tasks[i].final_region.empty()) continue;
-        if (const auto status = offer(peers_[i], tasks[i]); !status)
-            return fail_in(peers_[i].who, status.error());
-        groups[server_id(i)] = std::move(tasks[i].group);
+        if (const auto status = machines_->tell(frame.servers[i], tasks[i]); !status)
+            return fail_in(machines_->who(frame.servers[i]), status.error());
+        groups[frame.servers[i]] = std::move(tasks[i].group);
     }
     const std::size_t working = groups.size();
     costs_->on_issued(number, std::move(groups));
     broadcast_.on_planned(order, plan, timeline.overlap_factor);
-    if (const auto status = offer(peers_.back(), assemble); !status)
-        return fail_in(peers_.back().who, status.error());
+    if (const auto status = machines_->tell_display(assemble); !status)
+        return fail_in("the display", status.error());
     frame.missing = working + 1;
     frame.finished.order = order;
     frame.finished.plan = std::move(plan);
@@ -318,31 +283,24 @@ Status ClusterRun::issue(FrameNumber number) {
     return live_ ? run(director_.on_wanted(live_->wants_frame())) : Status{};
 }
 
-Status ClusterRun::on_server_report(std::size_t i, const ServerReport& report) {
-    if (const auto status = costs_->on_report(report.frame, server_id(i), report.visible); !status)
-        return status;
-    return on_report(i, report, {});
-}
-
-Status ClusterRun::on_report(std::size_t i, const Report& report, const Buffer& body) {
-    auto found = frames_.find(report.frame);
-    if (found == frames_.end()) return fail("a report for frame {}, which is not open", report.frame);
+Status ClusterRun::on_report(std::size_t at, const Report& report, Nanoseconds clock_offset,
+                             const Buffer& body) {
+    const auto found = frames_.find(report.frame);
     OpenFrame& frame = found->second;
-    const Peer& peer = peers_[i];
-    MachineTimeline& machine = frame.finished.timeline.machines[1 + i];
+    MachineTimeline& machine = frame.finished.timeline.machines[at];
+    const bool display = at + 1 == frame.finished.timeline.machines.size();
     if (report.spans.empty() || !machine.spans.empty())
         return fail("a report for frame {} that is empty or came twice", report.frame);
-    const Nanoseconds offset = peer.connection->clock_offset();
     machine.spans = report.spans;
     for (Span& span : machine.spans) {
-        span.begin += offset;
-        span.end += offset;
+        span.begin += clock_offset;
+        span.end += clock_offset;
     }
     machine.counters = report.counters;
-    auto actions = peer.role == Role::kDisplay ? director_.on_display_report(report.frame)
-                                               : director_.on_server_report(report.frame);
+    auto actions =
+        display ? director_.on_display_report(report.frame) : director_.on_server_report(report.frame);
     if (!actions) return tl::unexpected(actions.error());
-    if (peer.role == Role::kDisplay) {
+    if (display) {
         if (const auto status = handlers_.on_picture(report.frame, body); !status) {
             finish(tl::unexpected(status.error()));
             return {};
@@ -351,7 +309,9 @@ Status ClusterRun::on_report(std::size_t i, const Report& report, const Buffer& 
     if (--frame.missing == 0) {
         broadcast_.on_over(frame.finished, live_ && live_->measuring(), clock_.now());
         timelines_.push_back(std::move(frame.finished.timeline));
+        const std::vector<ServerId> servers = std::move(frame.servers);
         frames_.erase(found);
+        machines_->on_over(servers);
         if (live_ && timelines_.size() > kLiveHistory) timelines_.pop_front();
     }
     return run(*actions);
@@ -391,20 +351,20 @@ Status ClusterRun::follow_wish() {
 void ClusterRun::tell_state() {
     LiveWish shown = live_->wish();
     shown.setup = live_->setup();
+    std::vector<Address> servers;
+    for (const ServerId server : machines_->members()) servers.push_back(machines_->address(server));
     broadcast_.on_state(*live_, changing_ ? "changing the setup" : "",
-                        job_.command(shown, job_.scene->depth));
+                        job_.command(shown, servers, job_.scene->depth));
 }
 
-// No frame is open. The client cuts the model first: the servers are told a depth.
+// No frame is open, and none is begun until the director hears that the change is over.
 Status ClusterRun::change_setup() {
-    const auto wanted = live_->wanted_setup();
-    if (!wanted) {
-        if (const auto status = run(director_.on_reconfigured()); !status) return status;
-        return follow_wish();
-    }
+    const auto wanted = live_ ? live_->wanted_setup() : std::nullopt;
+    if (!wanted) return go_on();
     next_setup_ = *wanted;
     changing_ = true;
     tell_state();
+    // The client cuts the model first: the servers are told a depth.
     if (wanted->objects == live_->setup().objects) return on_cut(job_.scene);
     if (!cutter_) cutter_ = std::make_unique<WorkerThread>();
     // The task holds nothing alive: the run's end waits for it.
@@ -428,36 +388,11 @@ Status ClusterRun::on_cut(std::shared_ptr<const ObjectSet> scene) {
     next_scene_ = std::move(scene);
     const Drawing next{next_scene_->depth, next_setup_.renderer, next_setup_.cull};
     if (next == drawing_) return end_change({});
-    change_.begin(job_.servers.size());
-    return ask_servers(next);
-}
-
-Status ClusterRun::ask_servers(const Drawing& drawing) {
-    for (const Peer& peer : peers_)
-        if (peer.role == Role::kServer)
-            if (const auto status = offer(peer, Reconfigure{drawing}); !status)
-                return fail_in(peer.who, status.error());
-    return {};
-}
-
-Status ClusterRun::on_changed(const Ready& ready) {
-    const ObjectSet& scene = change_.going_back() ? *job_.scene : *next_scene_;
-    if (ready.refused.empty() && ready.objects != scene.objects.size())
-        return fail("cut the model into {} objects, this client into {}", ready.objects,
-                    scene.objects.size());
-    switch (change_.on_answer(ready.refused)) {
-        case SetupChange::Next::kWait:
-            return {};
-        case SetupChange::Next::kDone:
-            return end_change({});
-        case SetupChange::Next::kGoBack:
-            return ask_servers(drawing_);
-        case SetupChange::Next::kUndone:
-            return end_change(change_.why());
-        case SetupChange::Next::kStuck:
-            return fail("cannot go back to what it had: {}", ready.refused);
-    }
-    return {};
+    return machines_->reconfigure(next, next_scene_->objects.size(),
+                                  [weak = weak_from_this()](const std::string& refused) {
+                                      const auto self = weak.lock();
+                                      return self ? self->end_change(refused) : Status();
+                                  });
 }
 
 Status ClusterRun::end_change(const std::string& refused) {
@@ -469,10 +404,17 @@ Status ClusterRun::end_change(const std::string& refused) {
         if (drawing_.renderer != before.renderer || drawing_.cull != before.cull) broadcast_.on_drawing();
         if (scene != job_.scene) use(std::move(scene));
         live_->on_setup(next_setup_);
+        tell_session();  // it names the servers' renderers
     } else {
         live_->on_setup_refused(next_setup_, refused);
     }
     tell_state();
+    return go_on();
+}
+
+Status ClusterRun::go_on() {
+    awaiting_servers_ = machines_->members().empty();
+    if (awaiting_servers_) return {};
     if (const auto status = run(director_.on_reconfigured()); !status) return status;
     return follow_wish();
 }

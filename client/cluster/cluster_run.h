@@ -1,5 +1,6 @@
 #pragma once
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -12,24 +13,21 @@
 #include "client/director/director.h"
 #include "client/live/broadcast.h"
 #include "client/live/live_view.h"
-#include "client/live/setup_change.h"
+#include "client/machines/machines.h"
 #include "client/partition/object_costs.h"
 #include "client/partition/partitioner.h"
 #include "common/base/buffer.h"
 #include "common/base/clock.h"
 #include "common/base/result.h"
 #include "common/base/worker_thread.h"
-#include "common/scene/model_blob.h"
 #include "common/scene/objects.h"
 #include "common/timeline/timeline.h"
-#include "common/wire/address.h"
-#include "common/wire/connection.h"
 
 namespace swath {
 
 // What a run renders and where.
 struct ClusterJob {
-    std::vector<Address> servers;
+    ServerSource servers;
     Address display;
     std::string model;  // as the user named it
     std::shared_ptr<const ObjectSet> scene;
@@ -42,9 +40,8 @@ struct ClusterJob {
     // then its start's.
     std::optional<LiveView::Settings> live;
     // The command line that draws a view, for people who look.
-    std::function<std::string(const LiveWish&, int octree_depth)> command = [](const auto&, int) {
-        return std::string();
-    };
+    std::function<std::string(const LiveWish&, const std::vector<Address>& servers, int octree_depth)>
+        command = [](const auto&, const auto&, int) { return std::string(); };
     int width = 1280;
     int height = 960;
     Rgb background{};
@@ -55,14 +52,14 @@ struct ClusterJob {
     WireTiming timing;
 };
 
-// Drives servers and a display through a job: connects, sets up, partitions frame by frame, and gathers what
-// every machine did. It does what the Director decides, and in a live run draws what LiveView says. On the
-// io_context's thread, but for cutting a model anew.
+// Drives a job's machines through it: partitions frame by frame, tells each its part, and gathers what every
+// one did. It does what the Director decides with whom Machines has brought up, and in a live run draws what
+// LiveView says. On the io_context's thread, but for cutting a model anew.
 class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
   public:
     struct Handlers {
-        // Every machine is set up. The address of the display's page, if it has one.
-        std::function<void(const std::string& page)> on_ready;
+        // So many servers and the display are set up. The address of the display's page, if it has one.
+        std::function<void(const std::string& page, std::size_t servers)> on_ready;
         std::function<Status(FrameNumber, const Buffer& picture)> on_picture;  // encoded; empty if no format
         std::function<void(Result<std::vector<FrameTimeline>>)> on_done;       // once, last
     };
@@ -75,30 +72,20 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     void end();
 
   private:
-    struct Peer {
-        std::string who;  // "server 2 at 127.0.0.1:4002", for people
-        std::string address;
-        std::string description;  // of a server's renderer
-        Role role = Role::kServer;
-        std::shared_ptr<Connection> connection;
-        bool greeted = false;
-        bool ready = false;
-        bool connected = false;
-    };
     struct OpenFrame {
-        FinishedFrame finished;   // as far as it is known
-        std::size_t missing = 0;  // reports
+        FinishedFrame finished;         // as far as it is known
+        std::vector<ServerId> servers;  // by their places in the plan
+        std::size_t missing = 0;        // reports
     };
 
-    void connect(std::size_t peer, const Address& address);
-    void set_up();
-    Status on_message(std::size_t peer, Message&& message, Buffer&& body);
-    Status send_model_part(const Peer& peer, std::uint64_t offset);
-    Status on_ready(Peer& peer, const Ready& ready);
+    Status on_started(const std::string& page);
+    void on_members();
+    void tell_session();
+    Status on_server(ServerId server, Message&& message);
+    Status on_display(Message&& message, const Buffer& body);
     Status on_audience(const Audience& audience);
     Status on_wish(const Wish& wish, const Buffer& body);
-    Status on_server_report(std::size_t peer, const ServerReport& report);
-    Status on_report(std::size_t peer, const Report& report, const Buffer& body);
+    Status on_report(std::size_t machine, const Report& report, Nanoseconds clock_offset, const Buffer& body);
     Status run(const Director::Actions& actions);
     // What the wish asks for, as far as it can be begun now.
     Status follow_wish();
@@ -106,39 +93,35 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Status issue(FrameNumber frame);
     Status change_setup();
     Status on_cut(std::shared_ptr<const ObjectSet> scene);
-    Status ask_servers(const Drawing& drawing);
-    Status on_changed(const Ready& ready);
     Status end_change(const std::string& refused);
+    Status go_on();
     void use(std::shared_ptr<const ObjectSet> scene);
     Partitioner& partitioner(Algorithm algorithm);
     void tell_state();
-    Status offer(const Peer& peer, const Message& message, Buffer body = {});
-    void lost(std::size_t peer, const std::string& why);
+    void await_servers();
     void finish(Result<std::vector<FrameTimeline>> result);
 
     boost::asio::io_context& io_;
     ClusterJob job_;
     const Clock& clock_;
     Handlers handlers_;
-    std::vector<Peer> peers_;                                         // the servers, then the display
+    std::shared_ptr<Machines> machines_;                              // from start() on
     std::map<Algorithm, std::unique_ptr<Partitioner>> partitioners_;  // of job_.scene, made when first needed
     std::optional<ObjectCosts> costs_;                                // of job_.scene
-    Digest digest_;  // made before the network runs: a large model takes a while
     Director director_;
     std::map<FrameNumber, OpenFrame> frames_;
     std::deque<FrameTimeline> timelines_;
     std::optional<LiveView> live_;
     Broadcast broadcast_;
-    std::string page_;  // where the display serves it
 
     // A change of setup, from kReconfigure on.
     Drawing drawing_;  // in effect
     bool changing_ = false;
     LiveSetup next_setup_;
     std::shared_ptr<const ObjectSet> next_scene_;
-    SetupChange change_;
+    bool awaiting_servers_ = false;  // it goes on when there is one
+    boost::asio::steady_timer patience_;
 
-    bool started_ = false;
     bool over_ = false;
     std::unique_ptr<WorkerThread> cutter_;  // null until a model is cut anew
 };

@@ -1,38 +1,40 @@
 #include "client/cluster/run_cluster.h"
 
-#include <boost/asio/signal_set.hpp>
-#include <csignal>
+#include <boost/asio/post.hpp>
 
 namespace swath {
 
-Result<std::vector<FrameTimeline>> run_cluster(ClusterJob job, const Clock& clock,
-                                               std::function<void(const std::string& page)> on_ready,
-                                               std::function<Status(FrameNumber, const Buffer&)> on_picture) {
+Result<std::vector<FrameTimeline>> run_cluster(
+    ClusterJob job, const Clock& clock, StopSignals& signals,
+    std::function<void(const std::string& page, std::size_t servers)> on_ready,
+    std::function<Status(FrameNumber, const Buffer&)> on_picture) {
     boost::asio::io_context io(1);
     Result<std::vector<FrameTimeline>> result = fail("the run did not end");
     bool over = false;
     const bool live = job.live.has_value();
-    boost::asio::signal_set signals(io, SIGINT, SIGTERM);
     const auto run =
         std::make_shared<ClusterRun>(io, std::move(job), clock,
                                      ClusterRun::Handlers{std::move(on_ready), std::move(on_picture),
                                                           [&](Result<std::vector<FrameTimeline>> done) {
                                                               result = std::move(done);
                                                               over = true;
-                                                              signals.cancel();
                                                           }});
-    signals.async_wait([&](const boost::system::error_code& error, int) {
-        if (error) return;
-        if (live) return run->end();
-        run->stop();
-        result = fail("interrupted");
-        over = true;
-    });
     run->start();
+    signals.on_stop([&] {
+        boost::asio::post(io, [&] {
+            if (over) return;
+            if (live) return run->end();
+            run->stop();
+            result = fail("interrupted");
+            over = true;
+        });
+    });
     while (!over && io.run_one() > 0) {
     }
     // What is left: the last words to peers, and perhaps attempts to connect that no longer matter.
     io.run_for(std::chrono::milliseconds(200));
+    // It has been asked for, or ends by itself.
+    signals.on_stop([] {});
     return result;
 }
 

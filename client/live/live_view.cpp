@@ -1,5 +1,6 @@
 #include "client/live/live_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -59,13 +60,23 @@ Status LiveView::on_wish(std::string_view json, std::uint32_t by) {
 
 // A camera that is one by itself may still be too far from this model, or too narrow, for single precision.
 Status LiveView::check_camera() const {
-    const FrameOrder order = order_of(wish_.camera, wish_.algorithm, wish_.servers);
+    const FrameOrder order = order_of(wish_.camera, wish_.algorithm, servers());
     const View view = make_view(order.camera, order.width, order.height);
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 4; ++k)
             if (!std::isfinite(view.clip_from_model[i][k]))
                 return fail("the model cannot be projected from there");
     return {};
+}
+
+void LiveView::on_servers(std::size_t servers) {
+    settings_.limits.servers = servers;
+    dirty_ = true;
+    measured_servers_ = 0;
+}
+
+std::size_t LiveView::servers() const {
+    return std::min(wish_.servers.value_or(settings_.limits.servers), settings_.limits.servers);
 }
 
 void LiveView::on_viewers(std::uint32_t viewers) {
@@ -130,7 +141,7 @@ FrameOrder LiveView::next() {
         shown_ = path_[path_at_ % path_.size()];
         ++path_at_;
     }
-    FrameOrder order = order_of(shown_, wish_.algorithm, wish_.servers);
+    FrameOrder order = order_of(shown_, wish_.algorithm, servers());
     if (wish_.against) {
         second_ = order;
         second_->algorithm = *wish_.against;

@@ -42,6 +42,8 @@ class LiveView {
 
     // An error: the text is no wish. Fields that cannot be had are in refused().
     Status on_wish(std::string_view json, std::uint32_t by);
+    // How many servers there are, at least 1.
+    void on_servers(std::size_t servers);
     // How many look. A newcomer gets a new frame.
     void on_viewers(std::uint32_t viewers);
 
@@ -56,6 +58,7 @@ class LiveView {
     void on_setup_refused(const LiveSetup& tried, const std::string& why);
 
     const LiveWish& wish() const { return wish_; }     // as asked for
+    std::size_t servers() const;                       // that take part
     const LiveSetup& setup() const { return setup_; }  // in effect
     // The wish's, or what is in effect where that cannot be had.
     const LiveSetup& accepted_setup() const { return wish_.setup == refused_setup_ ? setup_ : wish_.setup; }

@@ -145,7 +145,7 @@ std::string state_note(const LiveView& live, const std::string& busy, const std:
                     {"height", wish.height},
                     {"algorithm", name_of(wish.algorithm)},
                     {"against", name_or_null(wish.against)},
-                    {"servers", wish.servers},
+                    {"servers", wish.servers ? Json(*wish.servers) : Json()},
                     {"objects", live.accepted_setup().objects},
                     {"renderer", name_of(live.accepted_setup().renderer)},
                     {"cull", name_of(live.accepted_setup().cull)},

@@ -41,6 +41,14 @@ Status take_against(const Json& value, std::optional<Algorithm>& to) {
     return {};
 }
 
+Status take_servers(const Json& value, std::size_t most, std::optional<std::size_t>& to) {
+    std::size_t servers = 0;
+    if (!value.is_null())
+        if (const Status status = take(value, 1, most, servers); !status) return status;
+    to = value.is_null() ? std::nullopt : std::optional(servers);
+    return {};
+}
+
 Status take_path(const Json& value, std::string& to) {
     const auto parse = [](const std::string& name) -> Result<std::string> {
         if (name == "orbit" || name == "random") return name;
@@ -100,7 +108,7 @@ Result<Refusals> apply_wish(std::string_view text, std::uint32_t by, const WishL
         field("width", [&](const Json& value) { return take_size(value, json["height"], limits, wish); });
     field("algorithm", [&](const Json& value) { return take_name(value, parse_algorithm, wish.algorithm); });
     field("against", [&](const Json& value) { return take_against(value, wish.against); });
-    field("servers", [&](const Json& value) { return take(value, 1, limits.servers, wish.servers); });
+    field("servers", [&](const Json& value) { return take_servers(value, limits.servers, wish.servers); });
     field("objects", [&](const Json& value) { return take(value, 1, kMaxLiveObjects, wish.setup.objects); });
     field("renderer",
           [&](const Json& value) { return take_name(value, parse_renderer, wish.setup.renderer); });

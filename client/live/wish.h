@@ -31,7 +31,7 @@ struct LiveWish {
     int height = 960;
     Algorithm algorithm = Algorithm::kHybrid;
     std::optional<Algorithm> against;
-    std::size_t servers = 1;
+    std::optional<std::size_t> servers;  // none: all that there are
     LiveSetup setup;
     std::string path;  // "orbit", "random"; empty: `camera`
     bool paused = false;

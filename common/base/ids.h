@@ -4,7 +4,7 @@
 
 namespace swath {
 
-// A server's place in the cluster, 0 to N-1.
+// A server's place in a frame, 0 to N-1; between programs its number in the session.
 enum class ServerId : std::uint32_t {};
 constexpr std::size_t index(ServerId id) { return static_cast<std::size_t>(id); }
 constexpr ServerId server_id(std::size_t i) { return static_cast<ServerId>(i); }

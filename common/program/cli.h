@@ -1,9 +1,13 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 #include "common/base/result.h"
+
+namespace CLI {
+class App;
+class Validator;
+}  // namespace CLI
 
 namespace swath {
 

@@ -6,12 +6,14 @@
 #include <unistd.h>
 #include <algorithm>
 #include <boost/asio/posix/stream_descriptor.hpp>
-#include <boost/asio/signal_set.hpp>
-#include <csignal>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <thread>
+
+#include "common/program/stop_signals.h"
 
 namespace swath {
 namespace asio = boost::asio;
@@ -29,8 +31,10 @@ void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& tim
         ->check(CLI::Range(100, 600'000));
 }
 
-void add_lifeline_option(CLI::App& app, ProgramOptions& options) {
+void add_waiting_options(CLI::App& app, ProgramOptions& options) {
     app.add_flag("--lifeline", options.lifeline, "end when stdin closes (for programs that start this one)");
+    app.add_flag("--health", options.health,
+                 "ask whether such a program answers at --listen, and end: exit code 0 or 1");
 }
 
 void add_threads_option(CLI::App& app, int& threads) {
@@ -62,20 +66,17 @@ void announce(const Address& address) {
     spdlog::info("listening on {}", to_string(address));
 }
 
-int run_until_stopped(asio::io_context& io, const ProgramOptions& options) {
-    asio::signal_set signals(io, SIGTERM);
+int run_until_stopped(asio::io_context& io, SessionHost& host, const ProgramOptions& options) {
     // A terminal's Ctrl-C reaches all programs; one on a lifeline leaves it to the one that started it.
-    if (options.lifeline)
-        ::signal(SIGINT, SIG_IGN);
-    else
-        signals.add(SIGINT);
-    // Work in progress (a frame, a model being read) is dropped rather than waited for.
-    const auto leave = [](int code) {
-        spdlog::shutdown();
-        std::_Exit(code);
-    };
-    signals.async_wait([&](const boost::system::error_code& error, int) {
-        if (!error) leave(kExitDone);
+    StopSignals signals(kExitDone, !options.lifeline);
+    asio::steady_timer last_words(io);
+    signals.on_stop([&] {
+        asio::post(io, [&] {
+            host.leave([&] {
+                last_words.expires_after(std::chrono::milliseconds(200));
+                last_words.async_wait([&](const boost::system::error_code&) { io.stop(); });
+            });
+        });
     });
     asio::posix::stream_descriptor lifeline(io);
     std::array<char, 64> ignored{};
@@ -83,7 +84,7 @@ int run_until_stopped(asio::io_context& io, const ProgramOptions& options) {
         lifeline.async_read_some(asio::buffer(ignored),
                                  [&](const boost::system::error_code& error, std::size_t) {
                                      if (error == asio::error::operation_aborted) return;
-                                     if (error) leave(kExitDone);
+                                     if (error) io.stop();
                                      watch();
                                  });
     };
@@ -92,7 +93,8 @@ int run_until_stopped(asio::io_context& io, const ProgramOptions& options) {
         watch();
     }
     io.run();
-    return kExitDone;
+    // Work in progress (a frame, a model being read) is dropped rather than waited for.
+    std::_Exit(kExitDone);
 }
 
 std::string default_cache_folder() {

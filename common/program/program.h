@@ -7,6 +7,7 @@
 #include "common/program/cli.h"
 #include "common/wire/address.h"
 #include "common/wire/connection.h"
+#include "common/wire/session_host.h"
 
 namespace swath {
 
@@ -15,9 +16,11 @@ namespace swath {
 struct ProgramOptions {
     bool quiet = false;
     bool lifeline = false;
+    bool health = false;
 };
 void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& timing);
-void add_lifeline_option(CLI::App& app, ProgramOptions& options);  // for programs that wait for others
+// For programs that wait for others: --lifeline and --health.
+void add_waiting_options(CLI::App& app, ProgramOptions& options);
 
 // --threads, also from the environment's LP_NUM_THREADS; -1: not given. Then set_raster_threads, before the
 // first context: the threads that llvmpipe adds to the one that draws (-1: its own choice, one a core).
@@ -33,8 +36,8 @@ void start_log(const std::string& program, const ProgramOptions& options);
 void announce(const Address& address);
 
 // Runs `io` until SIGINT or SIGTERM; with a lifeline until SIGTERM or until stdin closes: the program that
-// started us has gone.
-int run_until_stopped(boost::asio::io_context& io, const ProgramOptions& options);
+// started us has gone. A signal lets `host` take leave first, for StopSignals::kGrace at most.
+int run_until_stopped(boost::asio::io_context& io, SessionHost& host, const ProgramOptions& options);
 
 // $XDG_CACHE_HOME/swath, else ~/.cache/swath.
 std::string default_cache_folder();

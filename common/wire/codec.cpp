@@ -93,14 +93,11 @@ struct Encoder {
         out.set_digest(m.digest.data(), m.digest.size());
         out.set_blob_bytes(m.blob_bytes);
         put_drawing(m.drawing, out);
-        for (const std::string& s : m.servers) out.add_servers(s);
-        out.set_display(m.display);
         out.set_frames_in_flight(m.frames_in_flight);
     }
     void operator()(const DisplaySetup& m) const {
         pb::DisplaySetup& out = *head.mutable_display_setup();
         out.set_session(m.session);
-        out.set_servers(m.servers);
         out.set_format(static_cast<std::uint32_t>(m.format));
         out.set_frames_in_flight(m.frames_in_flight);
         out.set_live(m.live);
@@ -115,8 +112,17 @@ struct Encoder {
         out.set_description(m.description);
         out.set_refused(m.refused.substr(0, kMaxNameBytes));
     }
-    void operator()(const Connect&) const { head.mutable_connect(); }
+    void operator()(const Connect& m) const {
+        pb::Connect& out = *head.mutable_connect();
+        out.set_display(m.display);
+        for (const Connect::Peer& peer : m.peers) {
+            pb::PeerAddress& to = *out.add_peers();
+            to.set_server(static_cast<std::uint32_t>(peer.server));
+            to.set_address(peer.address);
+        }
+    }
     void operator()(const Connected&) const { head.mutable_connected(); }
+    void operator()(const Leave&) const { head.mutable_leave(); }
     void operator()(const RenderFrame& m) const {
         pb::RenderFrame& out = *head.mutable_render_frame();
         out.set_frame(m.frame);
@@ -275,7 +281,7 @@ M get_pixels(const pb::Pixels& in) {
 }
 
 Result<Message> get_hello(const pb::Hello& in) {
-    if (in.role() < 1 || in.role() > 3) return fail("role: {} is none", in.role());
+    if (in.role() < 1 || in.role() > 4) return fail("role: {} is none", in.role());
     const auto server = get_server(in.server(), "server");
     if (!server) return tl::unexpected(server.error());
     return Hello{static_cast<Role>(in.role()), in.session(), *server, in.max_head_bytes(),
@@ -307,28 +313,33 @@ Result<Message> get_server_setup(const pb::ServerSetup& in) {
     const auto drawing = get_drawing(in);
     if (!drawing) return tl::unexpected(drawing.error());
     m.drawing = *drawing;
-    if (in.servers_size() < 1 || static_cast<std::size_t>(in.servers_size()) > kMaxServers)
-        return fail("servers: {}, the limits are 1 and {}", in.servers_size(), kMaxServers);
-    for (const std::string& s : in.servers()) {
-        if (const auto t = check_text(s, "servers"); !t) return tl::unexpected(t.error());
-        m.servers.push_back(s);
-    }
-    if (index(m.server) >= m.servers.size()) return fail("server: {} of {}", in.server(), m.servers.size());
-    if (const auto s = check_text(in.display(), "display"); !s) return tl::unexpected(s.error());
-    m.display = in.display();
     if (const auto s = check_in_flight(in.frames_in_flight()); !s) return tl::unexpected(s.error());
     m.frames_in_flight = in.frames_in_flight();
     return m;
 }
 
 Result<Message> get_display_setup(const pb::DisplaySetup& in) {
-    if (in.servers() < 1 || in.servers() > kMaxServers)
-        return fail("servers: {}, the limits are 1 and {}", in.servers(), kMaxServers);
     if (in.format() > static_cast<std::uint32_t>(PictureFormat::kJpeg))
         return fail("format: {} is none", in.format());
     if (const auto s = check_in_flight(in.frames_in_flight()); !s) return tl::unexpected(s.error());
-    return DisplaySetup{in.session(), in.servers(), static_cast<PictureFormat>(in.format()),
-                        in.frames_in_flight(), in.live()};
+    return DisplaySetup{in.session(), static_cast<PictureFormat>(in.format()), in.frames_in_flight(),
+                        in.live()};
+}
+
+Result<Message> get_connect(const pb::Connect& in) {
+    Connect m;
+    if (const auto s = check_text(in.display(), "display"); !s) return tl::unexpected(s.error());
+    m.display = in.display();
+    if (static_cast<std::size_t>(in.peers_size()) > kMaxServers)
+        return fail("peers: {}, the limit is {}", in.peers_size(), kMaxServers);
+    for (const pb::PeerAddress& peer : in.peers()) {
+        const auto server = get_server(peer.server(), "peers");
+        if (!server) return tl::unexpected(server.error());
+        if (!m.peers.empty() && m.peers.back().server >= *server) return fail("peers: not ascending");
+        if (const auto s = check_text(peer.address(), "peers"); !s) return tl::unexpected(s.error());
+        m.peers.push_back({*server, peer.address()});
+    }
+    return m;
 }
 
 Result<View> get_view(const pb::RenderFrame& in) {
@@ -445,7 +456,7 @@ Result<Message> get_message(const pb::Head& head) {
             return Ready{head.ready().objects(), head.ready().triangles(), head.ready().description(),
                          head.ready().refused()};
         case pb::Head::kConnect:
-            return Connect{};
+            return get_connect(head.connect());
         case pb::Head::kConnected:
             return Connected{};
         case pb::Head::kRenderFrame:
@@ -475,6 +486,8 @@ Result<Message> get_message(const pb::Head& head) {
             return Wish{head.wish().viewer()};
         case pb::Head::kNote:
             return get_note(head.note());
+        case pb::Head::kLeave:
+            return Leave{};
         case pb::Head::KIND_NOT_SET:
             break;
     }
@@ -533,6 +546,8 @@ std::string_view name(Role role) {
             return "server";
         case Role::kDisplay:
             return "display";
+        case Role::kProbe:
+            return "probe";
     }
     return "?";
 }
@@ -542,7 +557,7 @@ std::string_view name(const Message& message) {
         "Hello",       "Ping",       "Pong",         "ServerSetup",   "DisplaySetup", "NeedModel",
         "ModelPart",   "Ready",      "Connect",      "Connected",     "RenderFrame",  "AssembleFrame",
         "SwathPixels", "TilePixels", "ServerReport", "DisplayReport", "Failed",       "Bye",
-        "Reconfigure", "Audience",   "Wish",         "Note"};
+        "Reconfigure", "Audience",   "Wish",         "Note",          "Leave"};
     return kNames[message.index()];
 }
 

@@ -187,6 +187,8 @@ Status Connection::dispatch(Message&& message) {
             best_round_trip_ = round_trip;
             clock_offset_ = pong->sent + round_trip / 2 - pong->peer;
         }
+        // It answers our first Ping, which came right after our Hello.
+        if (const auto on_heard = std::exchange(handlers_.on_heard, nullptr)) on_heard();
         return {};
     }
     if (const auto* failed = std::get_if<Failed>(&message)) {

@@ -40,6 +40,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
         std::function<Status(const Hello&)> on_hello;
         std::function<Status(Message&&, Buffer&&)> on_message;
         std::function<void(const Status&)> on_closed;  // success after a Bye
+        std::function<void()> on_heard{};              // once: the peer has read our Hello. May be missing
     };
 
     Connection(boost::asio::ip::tcp::socket socket, Options options, const Clock& clock);

@@ -27,7 +27,8 @@ inline constexpr std::uint32_t kMaxFramesInFlight = 8;
 // At up to five bytes each they leave room in a message's head for the rest.
 inline constexpr std::size_t kMaxVisibleCounts = std::size_t{1} << 19;
 
-enum class Role : std::uint32_t { kClient = 1, kServer = 2, kDisplay = 3 };
+// A probe wants to know that somebody answers, no more.
+enum class Role : std::uint32_t { kClient = 1, kServer = 2, kDisplay = 3, kProbe = 4 };
 std::string_view name(Role role);
 
 // The first message of both ends of every connection.
@@ -69,21 +70,18 @@ struct ServerSetup {
     Digest digest{};    // of the model's blob
     std::uint64_t blob_bytes = 0;
     Drawing drawing;
-    std::vector<std::string> servers;  // "host:port" by ServerId
-    std::string display;
     std::uint32_t frames_in_flight = 2;
     bool operator==(const ServerSetup&) const = default;
 };
 // Client to display; it answers Ready.
 struct DisplaySetup {
     std::uint64_t session = 0;
-    std::uint32_t servers = 1;
     PictureFormat format = PictureFormat::kNone;
     std::uint32_t frames_in_flight = 2;
     bool live = false;  // the client takes wishes
     bool operator==(const DisplaySetup&) const = default;
 };
-// Client to server, while no frame is open: cut, draw and cull like this from now on. Ready answers; a server
+// Client to server, while it has no frame: cut, draw and cull like this from now on. Ready answers; a server
 // that cannot has changed nothing and says why in its `refused`.
 struct Reconfigure {
     Drawing drawing;
@@ -108,13 +106,24 @@ struct Ready {
     std::string refused{};  // why a Reconfigure cannot be done; else empty
     bool operator==(const Ready&) const = default;
 };
-// Client to server, when all are ready: connect to the display and to the servers with smaller ids. Connected
-// answers.
+// Client to server, when it is ready: connect to the display and to these servers; others will come by
+// themselves. Connected answers when all of them have read our Hello.
 struct Connect {
+    struct Peer {
+        ServerId server{};
+        std::string address;  // "host:port"
+        bool operator==(const Peer&) const = default;
+    };
+    std::string display;
+    std::vector<Peer> peers;  // ascending
     bool operator==(const Connect&) const = default;
 };
 struct Connected {
     bool operator==(const Connected&) const = default;
+};
+// Server to client: begin no more frames with me. Bye answers when those that are open are over.
+struct Leave {
+    bool operator==(const Leave&) const = default;
 };
 
 // What goes to or comes from one server.
@@ -212,9 +221,10 @@ struct Bye {
     bool operator==(const Bye&) const = default;
 };
 
-using Message = std::variant<Hello, Ping, Pong, ServerSetup, DisplaySetup, NeedModel, ModelPart, Ready,
-                             Connect, Connected, RenderFrame, AssembleFrame, SwathPixels, TilePixels,
-                             ServerReport, DisplayReport, Failed, Bye, Reconfigure, Audience, Wish, Note>;
+using Message =
+    std::variant<Hello, Ping, Pong, ServerSetup, DisplaySetup, NeedModel, ModelPart, Ready, Connect,
+                 Connected, RenderFrame, AssembleFrame, SwathPixels, TilePixels, ServerReport, DisplayReport,
+                 Failed, Bye, Reconfigure, Audience, Wish, Note, Leave>;
 std::string_view name(const Message& message);
 
 }  // namespace swath

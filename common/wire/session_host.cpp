@@ -27,6 +27,13 @@ SessionHost::~SessionHost() {
     if (session_) session_->stop();
 }
 
+void SessionHost::leave(std::function<void()> done) {
+    leaving_ = true;
+    if (!session_) return done();
+    on_left_ = std::move(done);
+    session_->leave();
+}
+
 void SessionHost::on_socket(tcp::socket socket) {
     Connection::Options options;
     options.hello.role = options_.role;
@@ -55,6 +62,7 @@ void SessionHost::on_socket(tcp::socket socket) {
 Status SessionHost::on_hello(const std::shared_ptr<Connection>& connection, const Hello& hello) {
     switch (hello.role) {
         case Role::kClient:
+            if (leaving_) return fail("this {} is being stopped", name(options_.role));
             if (session_) return fail("this {} is busy with another client", name(options_.role));
             spdlog::info("client {}: connected", connection->peer());
             newcomers_.erase(connection);
@@ -66,6 +74,8 @@ Status SessionHost::on_hello(const std::shared_ptr<Connection>& connection, cons
             if (status) newcomers_.erase(connection);
             return status;
         }
+        case Role::kProbe:
+            return {};
         case Role::kDisplay:
             break;
     }
@@ -83,7 +93,10 @@ void SessionHost::on_closed(const std::shared_ptr<Connection>& connection, const
     else
         spdlog::warn("client {}: {}; waiting for the next client", connection->peer(), why.error().message);
     // Let the caller's stack unwind before the session and its connections go.
-    boost::asio::post(io_, [session = std::move(session_)] { session->stop(); });
+    boost::asio::post(io_, [session = std::move(session_), on_left = std::move(on_left_)] {
+        session->stop();
+        if (on_left) on_left();
+    });
 }
 
 }  // namespace swath

@@ -24,6 +24,8 @@ class Session {
     virtual Status on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) = 0;
     // Of the client or a peer; true when this ends the session.
     virtual bool on_closed(const std::shared_ptr<Connection>& connection, const Status& why) = 0;
+    // This program is to end: tell the client, which then ends the session here.
+    virtual void leave() = 0;
     // Closes its connections and waits for its threads. Called once, last.
     virtual void stop() = 0;
 };
@@ -44,6 +46,8 @@ class SessionHost {
                                                      const Clock& clock, MakeSession make_session);
     ~SessionHost();
     Address address() const { return listener_->address(); }
+    // Takes leave of the client, if there is one, and calls back when nobody needs this program any more.
+    void leave(std::function<void()> done);
 
   private:
     SessionHost(boost::asio::io_context& io, const Options& options, const Clock& clock,
@@ -59,6 +63,8 @@ class SessionHost {
     std::unique_ptr<Listener> listener_;
     std::set<std::shared_ptr<Connection>> newcomers_;
     std::shared_ptr<Session> session_;
+    bool leaving_ = false;           // from leave() on
+    std::function<void()> on_left_;  // then, until the session is over
     std::shared_ptr<char> alive_ =
         std::make_shared<char>();  // callbacks hold it weakly: none acts after destruction
 };

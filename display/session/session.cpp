@@ -24,8 +24,7 @@ void DisplaySession::stop() {
     stopped_ = true;
     if (viewers_ != nullptr && assembly_) viewers_->end();
     client_->finish();
-    for (const auto& server : servers_)
-        if (server) server->finish();
+    for (const auto& [id, server] : servers_) server->finish();
     servers_.clear();
     encoder_.reset();
 }
@@ -36,31 +35,32 @@ void DisplaySession::give_up(const Error& error) {
 
 bool DisplaySession::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
     if (connection == client_) return true;
-    for (std::size_t i = 0; i < servers_.size(); ++i) {
-        if (servers_[i] != connection) continue;
-        servers_[i].reset();
-        if (why) continue;  // a Bye: the client has ended the run and the server heard of it first
+    for (auto server = servers_.begin(); server != servers_.end(); ++server) {
+        if (server->second != connection) continue;
+        const std::size_t id = index(server->first);
+        servers_.erase(server);
+        if (why) break;  // a Bye: it has left, or the client has ended the run and it heard of that first
         const std::string line =
-            fmt::format("lost server {} ({}): {}", i, connection->peer(), why.error().message);
+            fmt::format("lost server {} ({}): {}", id, connection->peer(), why.error().message);
         spdlog::warn("{}; ending the session", line);
         give_up(Error{line});
+        break;
     }
     return false;
 }
 
 Status DisplaySession::on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello) {
     if (!assembly_ || hello.session != setup_.session) return fail("this display is in another session");
-    if (index(hello.server) >= servers_.size() || servers_[index(hello.server)])
+    if (!servers_.emplace(hello.server, connection).second)
         return fail("server {} is not expected here", index(hello.server));
-    servers_[index(hello.server)] = connection;
     return {};
 }
 
 Status DisplaySession::on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) {
     if (stopped_) return {};
     if (from == client_) return from_client(message, std::move(body));
-    for (std::size_t i = 0; i < servers_.size(); ++i)
-        if (servers_[i] == from) return from_server(server_id(i), message, std::move(body));
+    for (const auto& [id, server] : servers_)
+        if (server == from) return from_server(id, message, std::move(body));
     return fail("{} is not expected here", name(message));
 }
 
@@ -74,7 +74,6 @@ Status DisplaySession::from_client(const Message& message, Buffer&& body) {
 Status DisplaySession::on_setup(const DisplaySetup& setup) {
     if (assembly_) return fail("DisplaySetup came twice");
     setup_ = setup;
-    servers_.resize(setup.servers);
     assembly_ = std::make_unique<Assembly>(setup.frames_in_flight);
     Ready ready;
     if (viewers_ != nullptr) ready.description = viewers_->url();
@@ -121,11 +120,7 @@ Status DisplaySession::on_note(const Note& note, Buffer&& text) {
 Status DisplaySession::on_assemble(const AssembleFrame& task) {
     if (!assembly_) return fail("AssembleFrame before DisplaySetup");
     std::vector<ServerId> servers;
-    for (const Exchange& e : task.tiles) {
-        if (index(e.server) >= servers_.size())
-            return fail("AssembleFrame: server {} of {}", index(e.server), servers_.size());
-        servers.push_back(e.server);
-    }
+    for (const Exchange& e : task.tiles) servers.push_back(e.server);
     const auto actions = assembly_->on_task(task.frame, servers);
     if (!actions) return tl::unexpected(actions.error());
 

@@ -30,6 +30,7 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     Status on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello) override;
     Status on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) override;
     bool on_closed(const std::shared_ptr<Connection>& connection, const Status& why) override;
+    void leave() override { give_up({"it was stopped"}); }
     void stop() override;
 
   private:
@@ -61,8 +62,8 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     // The newest wish that the client does not have yet; it gets one at a time, so that it never works off
     // old ones.
     std::optional<std::pair<ViewerId, std::string>> next_wish_;
-    bool wish_under_way_ = false;                       // until the client's next state note
-    std::vector<std::shared_ptr<Connection>> servers_;  // by ServerId; null until connected
+    bool wish_under_way_ = false;  // until the client's next state note
+    std::map<ServerId, std::shared_ptr<Connection>> servers_;
     std::unique_ptr<Assembly> assembly_;
     std::map<FrameNumber, OpenFrame> frames_;
     Pieces pieces_;

@@ -46,13 +46,13 @@ bool same(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-Admission::Admission(const Address& listening, bool loopback, std::string token)
-    : token_(std::move(token)), cookie_name_(fmt::format("swath-{}", listening.port)) {
+Admission::Admission(const Address& reached, bool loopback, std::string token)
+    : token_(std::move(token)), cookie_name_(fmt::format("swath-{}", reached.port)) {
     if (!loopback) return;
     for (const std::string& host :
-         {std::string("localhost"), std::string("127.0.0.1"), std::string("::1"), lower(listening.host)}) {
-        hosts_.push_back(to_string({host, listening.port}));
-        if (listening.port != kHttpPort) continue;
+         {std::string("localhost"), std::string("127.0.0.1"), std::string("::1"), lower(reached.host)}) {
+        hosts_.push_back(to_string({host, reached.port}));
+        if (reached.port != kHttpPort) continue;
         const std::string& with_port = hosts_.back();
         hosts_.push_back(with_port.substr(0, with_port.rfind(':')));
     }

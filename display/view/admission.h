@@ -20,8 +20,8 @@ struct Visitor {
 // was made to point here (DNS rebinding) is not. Elsewhere a token is needed. Values only; any thread.
 class Admission {
   public:
-    // `token` is empty on loopback.
-    Admission(const Address& listening, bool loopback, std::string token);
+    // Where people reach us; `token` is empty on loopback.
+    Admission(const Address& reached, bool loopback, std::string token);
 
     // Why the request is refused; empty if it is not.
     std::string_view refusal(const Visitor& visitor) const;

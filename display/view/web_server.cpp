@@ -81,7 +81,7 @@ class WebServer::Impl {
     Impl(asio::io_context& io, const WebLimits& limits, Handlers handlers)
         : io_(io), limits_(limits), handlers_(std::move(handlers)) {}
 
-    Status listen(const Address& address);
+    Status listen(const Address& wanted, const std::optional<Address>& published);
     void on_socket(tcp::socket socket);
 
     asio::io_context& io_;
@@ -378,7 +378,7 @@ void WebServer::Impl::Live::end() {
 
 // The server ------------------------------------------------------------------------------------------------
 
-Status WebServer::Impl::listen(const Address& wanted) {
+Status WebServer::Impl::listen(const Address& wanted, const std::optional<Address>& published) {
     error_code error;
     tcp::resolver resolver(io_);
     const auto found =
@@ -390,8 +390,14 @@ Status WebServer::Impl::listen(const Address& wanted) {
     if (!listener) return tl::unexpected(listener.error());
     listener_ = std::move(*listener);
     address_ = {wanted.host, listener_->address().port};
-    admission_.emplace(address_, where.is_loopback(), where.is_loopback() ? std::string() : make_token());
-    const Address shown{where.is_unspecified() ? asio::ip::host_name(error) : wanted.host, address_.port};
+    Address shown = published.value_or(address_);
+    const asio::ip::address reached = published ? asio::ip::make_address(published->host, error) : where;
+    const bool loopback = reached.is_loopback() || shown.host == "localhost";
+    admission_.emplace(shown, loopback, loopback ? std::string() : make_token());
+    if (reached.is_unspecified() && !loopback && !error) {
+        if (published) return fail("{} is no address that a browser could open", to_string(*published));
+        shown.host = asio::ip::host_name(error);
+    }
     url_ = fmt::format("http://{}/", to_string(shown));
     if (!admission_->token().empty()) url_ += "?token=" + admission_->token();
     return {};
@@ -410,7 +416,8 @@ void WebServer::Impl::on_socket(tcp::socket socket) {
 Result<std::unique_ptr<WebServer>> WebServer::make(asio::io_context& io, const Options& options,
                                                    Handlers handlers) {
     auto impl = std::make_unique<Impl>(io, options.limits, std::move(handlers));
-    if (const auto status = impl->listen(options.listen); !status) return tl::unexpected(status.error());
+    if (const auto status = impl->listen(options.listen, options.published); !status)
+        return tl::unexpected(status.error());
     return std::unique_ptr<WebServer>(new WebServer(std::move(impl)));
 }
 

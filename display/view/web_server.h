@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,6 +36,9 @@ class WebServer {
     struct Options {
         Address listen{"127.0.0.1", 0};
         WebLimits limits;
+        // Where people reach it, if that is elsewhere: something passes on what comes there. If it is on
+        // loopback, so are the people, wherever we listen ourselves.
+        std::optional<Address> published{};
     };
     struct Handlers {
         std::function<void(ViewerId)> on_join;
@@ -46,14 +50,14 @@ class WebServer {
         std::function<void(ViewerId)> on_leave;
     };
 
-    // Port 0 takes a free one. Errors name the address: taken, not ours, unknown host.
+    // Port 0 takes a free one. Errors name the address: taken, not ours, unknown host, nowhere to be reached.
     static Result<std::unique_ptr<WebServer>> make(boost::asio::io_context& io, const Options& options,
                                                    Handlers handlers);
     ~WebServer();
     WebServer(const WebServer&) = delete;
     WebServer& operator=(const WebServer&) = delete;
 
-    // Where it listens, with the port that it got.
+    // Where it listens itself, with the port that it got.
     const Address& address() const;
     // Where a person's browser finds it; off loopback with the token that opens it.
     const std::string& url() const;

@@ -115,8 +115,10 @@ export class Controls {
         this.#reasons.delete(field);
         if (field === 'size') this.size = value;
         if (field === 'servers') this.#show_servers(this.#elements.servers.max);
+        // As far as it goes means all servers, also those that will come.
+        const all = field === 'servers' && value === this.#elements.servers.max;
         const numeric = field === 'servers' || field === 'objects';
-        this.#on_change(field, numeric ? Number(value) : value === kNone ? null : value);
+        this.#on_change(field, all || value === kNone ? null : numeric ? Number(value) : value);
     }
 }
 

@@ -182,11 +182,12 @@ const kNotes = {
         refresh();
     },
     session: (note) => {
-        // The same run as before a connection was lost goes on; another one begins anew.
-        if (now.session && JSON.stringify(now.session) !== JSON.stringify(note)) forget_session();
+        // The same run goes on, with other servers or after a lost connection; another one begins anew.
+        if (now.session && !same_run(now.session, note)) forget_session();
         now.session = note;
         stage.background = note.background;
         const servers = note.servers?.length ?? 1;
+        if (wishes.want.servers > servers) wishes.want.servers = null;
         gantt.machines = servers + 2;
         curve.servers = servers;
         if (leads() && !now.leading) take_over_soon();
@@ -228,6 +229,10 @@ const kNotes = {
         refresh();
     },
 };
+
+function same_run(a, b) {
+    return JSON.stringify({...a, servers: null}) === JSON.stringify({...b, servers: null});
+}
 
 function forget_session() {
     Object.assign(now, {

@@ -24,8 +24,7 @@ ServerSession::ServerSession(asio::io_context& io, const ServerOptions& options,
 
 void ServerSession::stop() {
     client_->finish();
-    for (const auto& peer : peers_)
-        if (peer) peer->finish();
+    for (const auto& [id, peer] : peers_) peer->finish();
     if (display_) display_->finish();
     peers_.clear();
     display_.reset();
@@ -56,15 +55,16 @@ bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, con
     if (connection == client_) return true;
     std::string who;
     if (connection == display_) {
-        who = "the display at " + setup_.display;
+        who = "the display at " + connection->peer();
         display_.reset();
     }
-    for (std::size_t i = 0; i < peers_.size(); ++i)
-        if (peers_[i] == connection) {
-            who = fmt::format("server {} at {}", i, setup_.servers[i]);
-            peers_[i].reset();
-        }
-    // A Bye comes when the client has ended the run and a peer heard of it before we did.
+    for (auto peer = peers_.begin(); peer != peers_.end(); ++peer) {
+        if (peer->second != connection) continue;
+        who = fmt::format("server {} at {}", index(peer->first), connection->peer());
+        peers_.erase(peer);
+        break;
+    }
+    // A Bye comes when a peer has left, or when the client has ended the run and it heard of that before us.
     if (!who.empty() && !why) {
         const std::string line = fmt::format("lost {}: {}", who, why.error().message);
         spdlog::warn("{}; ending the session", line);
@@ -76,8 +76,8 @@ bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, con
 Status ServerSession::on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) {
     if (!draw_thread_) return {};
     if (from == client_) return from_client(std::move(message), std::move(body));
-    for (std::size_t i = 0; i < peers_.size(); ++i)
-        if (peers_[i] == from) return from_peer(server_id(i), std::move(message), std::move(body));
+    for (const auto& [id, peer] : peers_)
+        if (peer == from) return from_peer(id, std::move(message), std::move(body));
     return fail("{} is not expected from a display", name(message));
 }
 
@@ -86,7 +86,7 @@ Status ServerSession::on_message(const std::shared_ptr<Connection>& from, Messag
 Status ServerSession::from_client(Message&& message, Buffer&& body) {
     if (const auto* setup = std::get_if<ServerSetup>(&message)) return on_setup(*setup);
     if (const auto* part = std::get_if<ModelPart>(&message)) return on_model_part(*part, body);
-    if (std::holds_alternative<Connect>(message)) return on_connect();
+    if (const auto* connect = std::get_if<Connect>(&message)) return on_connect(*connect);
     if (const auto* other = std::get_if<Reconfigure>(&message)) return on_reconfigure(*other);
     if (auto* task = std::get_if<RenderFrame>(&message)) return on_render_frame(std::move(*task));
     return fail("{} is not expected from a client", name(message));
@@ -96,7 +96,6 @@ Status ServerSession::on_setup(const ServerSetup& setup) {
     if (set_up_) return fail("ServerSetup came twice");
     set_up_ = true;
     setup_ = setup;
-    peers_.resize(setup.servers.size());
     swap_ = std::make_unique<FrameSwap>(setup.frames_in_flight);
     if (setup.blob_bytes > options_.max_model_bytes)
         return fail("model {}: {} bytes, this server's limit is {}", setup.model, setup.blob_bytes,
@@ -174,21 +173,23 @@ Status ServerSession::on_loaded(const Result<Loaded>& loaded) {
 }
 
 Status ServerSession::on_reconfigure(const Reconfigure& reconfigure) {
-    if (!connected_ || reconfiguring_ || !frames_.empty()) return fail("Reconfigure is not expected now");
+    if (!ready_ || reconfiguring_ || !frames_.empty()) return fail("Reconfigure is not expected now");
     reconfiguring_ = true;
     draw_thread_->reconfigure(reconfigure.drawing, when_loaded());
     return {};
 }
 
-// --- the mesh of connections: every server connects to the display and to the servers with smaller ids
+// --- the mesh of connections: every server connects to the display and to the servers that were there before
 
-Status ServerSession::on_connect() {
+Status ServerSession::on_connect(const Connect& to) {
     if (!ready_ || connecting_) return fail("Connect is not expected now");
     connecting_ = true;
-    connect(setup_.display, Role::kDisplay, {});
-    for (std::size_t i = 0; i < index(setup_.server); ++i)
-        connect(setup_.servers[i], Role::kServer, server_id(i));
-    report_if_connected();
+    for (const Connect::Peer& peer : to.peers)
+        if (peer.server == setup_.server || peers_.contains(peer.server))
+            return fail("Connect: server {} is not expected", index(peer.server));
+    unheard_ = 1 + to.peers.size();
+    connect(to.display, Role::kDisplay, {});
+    for (const Connect::Peer& peer : to.peers) connect(peer.address, Role::kServer, peer.server);
     return {};
 }
 
@@ -206,19 +207,15 @@ void ServerSession::connect(const std::string& text, Role role, ServerId id) {
             options.hello.server = self->setup_.server;
             options.timing = self->options_.timing;
             const auto connection = std::make_shared<Connection>(std::move(*socket), options, self->clock_);
-            (role == Role::kDisplay ? self->display_ : self->peers_[index(id)]) = connection;
+            (role == Role::kDisplay ? self->display_ : self->peers_[id]) = connection;
             const std::weak_ptr<Connection> weak = connection;
-            connection->start({[self, role, id](const Hello& hello) {
-                                   if (const auto status = self->on_peer_hello(role, id, hello); !status)
-                                       return status;
-                                   ++self->answered_;
-                                   self->report_if_connected();
-                                   return Status{};
-                               },
-                               [self, weak](Message&& message, Buffer&& body) {
-                                   return self->on_message(weak.lock(), std::move(message), std::move(body));
-                               },
-                               [self, weak](const Status& why) { self->on_closed(weak.lock(), why); }});
+            connection->start(
+                {[self, role, id](const Hello& hello) { return self->on_peer_hello(role, id, hello); },
+                 [self, weak](Message&& message, Buffer&& body) {
+                     return self->on_message(weak.lock(), std::move(message), std::move(body));
+                 },
+                 [self, weak](const Status& why) { self->on_closed(weak.lock(), why); },
+                 [self] { self->on_heard(); }});
         });
 }
 
@@ -232,18 +229,14 @@ Status ServerSession::on_peer_hello(Role role, ServerId id, const Hello& hello) 
 
 Status ServerSession::on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello) {
     if (!set_up_ || hello.session != setup_.session) return fail("this server is in another session");
-    if (index(hello.server) >= peers_.size() || hello.server <= setup_.server || peers_[index(hello.server)])
+    if (hello.server == setup_.server || !peers_.emplace(hello.server, connection).second)
         return fail("server {} is not expected here", index(hello.server));
-    peers_[index(hello.server)] = connection;
-    report_if_connected();
     return {};
 }
 
-void ServerSession::report_if_connected() {
-    // Whom it connected to must have said Hello: before, they take no pixels. The others came with theirs.
-    if (!connecting_ || connected_ || answered_ < 1 + index(setup_.server)) return;
-    for (std::size_t i = index(setup_.server) + 1; i < peers_.size(); ++i)
-        if (!peers_[i]) return;
+// Who has read our Hello takes our pixels, and knows that we take theirs.
+void ServerSession::on_heard() {
+    if (!draw_thread_ || --unheard_ > 0) return;
     connected_ = true;
     tell_client(Connected{});
 }
@@ -257,7 +250,7 @@ Status ServerSession::check(const RenderFrame& task) const {
         return fail("RenderFrame: object {}, this model has {}", task.group.back(), objects_);
     for (const auto* exchanges : {&task.outgoing, &task.incoming})
         for (const Exchange& e : *exchanges)
-            if (index(e.server) >= peers_.size() || e.server == setup_.server)
+            if (!peers_.contains(e.server))
                 return fail("RenderFrame: an exchange with server {}", index(e.server));
     return {};
 }
@@ -360,9 +353,9 @@ Status ServerSession::send_swath(OpenFrame& frame, ServerId to) {
     Buffer body;
     const BodySizes sizes = encode_swath(frame.pixels, region_of(frame.task.outgoing, to), body);
     const std::size_t bytes = body.size();
-    const auto& peer = peers_[index(to)];
-    if (!peer) return fail("server {} has gone", index(to));
-    const auto sent = peer->offer(SwathPixels{frame.task.frame, sizes}, std::move(body));
+    const auto peer = peers_.find(to);
+    if (peer == peers_.end()) return fail("server {} has gone", index(to));
+    const auto sent = peer->second->offer(SwathPixels{frame.task.frame, sizes}, std::move(body));
     if (!sent) return fail("server {}: {}", index(to), sent.error().message);
     frame.report[Counter::kSwapPixels] += sizes.pixels;
     frame.report[Counter::kSwapBytes] += bytes + *sent;

@@ -24,10 +24,11 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
 
     std::uint64_t id() const override { return setup_.session; }
     ServerId server() const override { return setup_.server; }
-    // Of a server with a larger id.
+    // Of a server that joined later.
     Status on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello) override;
     Status on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) override;
     bool on_closed(const std::shared_ptr<Connection>& connection, const Status& why) override;
+    void leave() override { tell_client(Leave{}); }
     void stop() override;
 
   private:
@@ -47,10 +48,10 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     Status on_reconfigure(const Reconfigure& reconfigure);
     // Of load() and reconfigure(): back to this thread.
     std::function<void(Result<Loaded>)> when_loaded();
-    Status on_connect();
+    Status on_connect(const Connect& connect);
     void connect(const std::string& address, Role role, ServerId id);
     Status on_peer_hello(Role role, ServerId id, const Hello& hello) const;
-    void report_if_connected();
+    void on_heard();
     Status on_render_frame(RenderFrame&& task);
     Status check(const RenderFrame& task) const;
     Status from_peer(ServerId from, Message&& message, Buffer&& body);
@@ -81,10 +82,10 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     bool reconfiguring_ = false;
     bool connecting_ = false;
     bool connected_ = false;
-    std::size_t answered_ = 0;  // of those it connected to: the display and the servers with smaller ids
-    Buffer blob_;               // of a model that the client sends
+    std::size_t unheard_ = 0;  // of those it connects to: who has not read our Hello
+    Buffer blob_;              // of a model that the client sends
     std::size_t objects_ = 0;
-    std::vector<std::shared_ptr<Connection>> peers_;  // by ServerId; null for ourselves and until connected
+    std::map<ServerId, std::shared_ptr<Connection>> peers_;  // other servers
     std::shared_ptr<Connection> display_;
     std::unique_ptr<FrameSwap> swap_;
     std::map<FrameNumber, OpenFrame> frames_;

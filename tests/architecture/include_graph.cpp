@@ -41,9 +41,9 @@ const std::set<std::string_view> kDecisionFolders = {"client/partition", "client
                                                      "display/assemble"};
 
 // Where <boost/asio.hpp> may be included: networking. Also in every main.cpp and in tests.
-const std::set<std::string_view> kAsioFolders = {"common/wire",   "common/program", "client/cluster",
-                                                 "client/launch", "server/session", "display/session",
-                                                 "display/view"};
+const std::set<std::string_view> kAsioFolders = {"common/wire",     "common/program", "client/cluster",
+                                                 "client/machines", "client/launch",  "server/session",
+                                                 "display/session", "display/view"};
 
 // Where Boost.Beast may be: it takes longest of all to compile.
 const std::set<std::string_view> kBeastFolders = {"display/view", "tests/support"};

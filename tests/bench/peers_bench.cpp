@@ -17,6 +17,7 @@
 
 #include "client/cluster/run_cluster.h"
 #include "client/path/path.h"
+#include "common/program/cli.h"
 #include "common/scene/model.h"
 #include "common/scene/model_blob.h"
 #include "display/session/display.h"
@@ -163,7 +164,7 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
         [](boost::asio::io_context& io, const Clock& clock) { return make_display(io, {}, clock); });
 
     ClusterJob job;
-    for (const auto& server : servers) job.servers.push_back(server->address());
+    for (const auto& server : servers) job.servers.list.push_back(server->address());
     job.display = display.address();
     job.model = "none: the client has it";
     job.scene = scene;
@@ -184,8 +185,9 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
     std::vector<double> cpu_at;  // when a pass was complete
     const SteadyClock clock;
     std::size_t done = 0;
+    StopSignals signals(kExitFailed, true);
     const auto timelines = run_cluster(
-        std::move(job), clock, [](const std::string&) {},
+        std::move(job), clock, signals, [](const std::string&, std::size_t) {},
         [&](FrameNumber, const Buffer&) -> Status {
             if (++done % kViews == 0) cpu_at.push_back(all_cpu());
             return {};

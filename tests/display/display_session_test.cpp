@@ -50,7 +50,7 @@ class DisplayTest : public testing::Test {
     std::unique_ptr<Peer> client() { return come(hello_of(Role::kClient)); }
     std::unique_ptr<Peer> ready_client(std::uint32_t servers, PictureFormat format = PictureFormat::kNone) {
         auto made = client();
-        made->send(DisplaySetup{kSession, servers, format, 2});
+        made->send(DisplaySetup{kSession, format, 2});
         made->expect<Ready>();
         servers_.clear();
         for (std::uint32_t i = 0; i < servers; ++i) {
@@ -63,7 +63,7 @@ class DisplayTest : public testing::Test {
     // One whose run takes wishes; somebody looks.
     std::unique_ptr<Peer> live_client() {
         auto made = client();
-        made->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2, true});
+        made->send(DisplaySetup{kSession, PictureFormat::kNone, 2, true});
         made->expect<Ready>();
         made->expect<Audience>();
         return made;
@@ -171,9 +171,6 @@ TEST_F(DisplayTest, RefusesMessagesOutOfTurn) {
 }
 
 TEST_F(DisplayTest, RefusesImpossibleTasks) {
-    const auto one = ready_client(1);
-    one->send(task(0, {right_}));
-    EXPECT_EQ(one->ending(), "AssembleFrame: server 1 of 1");
     const auto two = ready_client(1);
     two->send(task(3, {left_}));
     two->send(task(3, {left_}));
@@ -196,9 +193,31 @@ TEST_F(DisplayTest, TurnsAwayServersThatItDoesNotExpect) {
     const auto one = ready_client(2);
     EXPECT_EQ(turned_away(41, 0), "this display is in another session");
     EXPECT_EQ(turned_away(kSession, 0), "server 0 is not expected here");  // there is one already
-    EXPECT_EQ(turned_away(kSession, 2), "server 2 is not expected here");
     EXPECT_EQ(client()->ending(), "this display is busy with another client");
     EXPECT_FALSE(one->closed.has_value());
+}
+
+TEST_F(DisplayTest, TakesServersThatJoinLaterAndForgetsThoseThatLeave) {
+    const auto one = ready_client(1, PictureFormat::kPng);
+    servers_.push_back(come(hello_of(Role::kServer, kSession, 1)));
+    one->send(task(0, {left_, right_}));
+    send_tile(0, 0, left_.region, 1);
+    send_tile(1, 0, right_.region, 2);
+    one->expect<DisplayReport>();
+    servers_[0]->connection->finish();
+    one->send(task(1, {right_}));
+    send_tile(1, 1, right_.region, 2);
+    one->expect<DisplayReport>();
+    EXPECT_FALSE(one->closed.has_value());
+}
+
+TEST_F(DisplayTest, TellsTheClientThatItIsStopped) {
+    const auto one = ready_client(1);
+    bool left = false;
+    display_->leave([&] { left = true; });
+    EXPECT_EQ(one->ending(), "it was stopped");
+    EXPECT_EQ(servers_[0]->ending(), "");
+    EXPECT_TRUE(loop_.run_until([&] { return left; }));
 }
 
 TEST_F(DisplayTest, TellsTheClientWhichServerIsLost) {
@@ -250,13 +269,13 @@ TEST_F(DisplayTest, ServesTheNextClientAfterOneThatVanished) {
 
 TEST_F(DisplayTest, SaysWhereItsPageIsAndHowManyLook) {
     const auto plain = client();
-    plain->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2});
+    plain->send(DisplaySetup{kSession, PictureFormat::kNone, 2});
     EXPECT_EQ(plain->expect<Ready>().description, "");
     plain->connection->finish();
     view();
     const auto early = viewer();
     const auto one = client();
-    one->send(DisplaySetup{kSession, 1, PictureFormat::kNone, 2});
+    one->send(DisplaySetup{kSession, PictureFormat::kNone, 2});
     EXPECT_EQ(one->expect<Ready>().description, viewers_->url());
     EXPECT_EQ(one->expect<Audience>(), Audience{1});
     const auto late = viewer();

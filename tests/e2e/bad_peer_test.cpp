@@ -89,7 +89,7 @@ TEST_F(BadPeer, SameServerTwiceIsRefused) {
     const std::string twice = cluster->server_address(0) + "," + cluster->server_address(0);
     const Finished finished =
         client(kModel + Arguments{"--servers", twice, "--display", cluster->display_address()});
-    expect_one_error(finished, 1, {cluster->server_address(0)});
+    expect_one_error(finished, 2, {"--servers", cluster->server_address(0), "twice"});
     EXPECT_EQ(client(kModel + cluster->flags()).exit_code, 0);
 }
 

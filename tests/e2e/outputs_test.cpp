@@ -197,8 +197,9 @@ TEST_F(Output, HelpIsOnePageAndNamesEveryFlag) {
                           "builtin:spheres", "builtin:town",   "builtin:hand", "--help"}},
         {"swath-server",
          {"--listen", "--cache", "--max-model-mib", "--threads", "--quiet", "--lifeline", "--silence-ms",
-          "--help"}},
-        {"swath-display", {"--listen", "--quiet", "--lifeline", "--silence-ms", "--help"}}};
+          "--health", "--help"}},
+        {"swath-display",
+         {"--listen", "--view", "--view-at", "--quiet", "--lifeline", "--silence-ms", "--health", "--help"}}};
     for (const auto& [program, words] : flags) {
         const Finished finished = start(program, {"--help"})->wait(kPatience);
         EXPECT_EQ(finished.exit_code, 0);

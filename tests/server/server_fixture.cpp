@@ -13,8 +13,7 @@ ServerTest::ServerTest() : blob_(write_blob(cube())) {
     server_ = std::move(*make_server(loop_.io, options_, loop_.clock, factory));
 }
 
-ServerSetup ServerTest::setup(std::size_t server, std::size_t count) {
-    while (doors_.size() < count) doors_.push_back(std::make_unique<Door>(loop_));
+ServerSetup ServerTest::setup(std::size_t server) const {
     ServerSetup made;
     made.session = kSession;
     made.server = server_id(server);
@@ -22,10 +21,15 @@ ServerSetup ServerTest::setup(std::size_t server, std::size_t count) {
     made.digest = digest(blob_.bytes());
     made.blob_bytes = blob_.size();
     made.drawing.octree_depth = 2;
-    for (std::size_t i = 0; i < count; ++i)
-        made.servers.push_back(to_string(i == server ? server_->address() : doors_[i]->address()));
-    made.display = to_string(display_door_.address());
     made.frames_in_flight = 2;
+    return made;
+}
+
+Connect ServerTest::connect_to(std::size_t before) {
+    while (doors_.size() < before) doors_.push_back(std::make_unique<Door>(loop_));
+    Connect made{to_string(display_door_.address()), {}};
+    for (std::size_t i = 0; i < before; ++i)
+        made.peers.push_back({server_id(i), to_string(doors_[i]->address())});
     return made;
 }
 
@@ -52,8 +56,8 @@ std::unique_ptr<Peer> ServerTest::ready_client(const ServerSetup& setup) {
 }
 
 std::unique_ptr<Peer> ServerTest::connected_client(std::size_t server, std::size_t count) {
-    auto made = ready_client(setup(server, count));
-    made->send(Connect{});
+    auto made = ready_client(setup(server));
+    made->send(connect_to(server));
     display_ = std::make_unique<Peer>(loop_, display_door_.next(), hello_of(Role::kDisplay, kSession));
     others_.clear();
     for (std::size_t i = 0; i < count; ++i) {
@@ -61,6 +65,7 @@ std::unique_ptr<Peer> ServerTest::connected_client(std::size_t server, std::size
         others_.push_back(i < server   ? std::make_unique<Peer>(loop_, doors_[i]->next(), hello)
                           : i > server ? come(hello)
                                        : nullptr);
+        if (i > server) loop_.run_until([&] { return others_[i]->connection->has_clock_offset(); });
     }
     made->expect<Connected>();
     return made;

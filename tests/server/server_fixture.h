@@ -47,8 +47,9 @@ class ServerTest : public testing::Test {
   protected:
     ServerTest();
 
-    // This server's place among `count`; others listen at doors of their own.
-    ServerSetup setup(std::size_t server = 0, std::size_t count = 1);
+    ServerSetup setup(std::size_t server = 0) const;
+    // To the display and the servers before this one, which listen at doors of their own.
+    Connect connect_to(std::size_t before = 0);
     std::unique_ptr<Peer> come(const Hello& hello);
     std::unique_ptr<Peer> client() { return come(hello_of(Role::kClient)); }
     // The client has sent its setup and, if asked, the model.

@@ -137,46 +137,45 @@ TEST_F(ServerTest, RefusesMessagesOutOfTurn) {
     EXPECT_EQ(twice->ending(), "ServerSetup came twice");
 }
 
-TEST_F(ServerTest, ConnectsToTheDisplayAndServersWithSmallerIds) {
+TEST_F(ServerTest, ConnectsToTheDisplayAndTheServersThatWereThereBefore) {
     const auto one = connected_client(1, 3);
     EXPECT_EQ(display_->hello, hello_of(Role::kServer, kSession, 1));
     EXPECT_EQ(others_[0]->hello, hello_of(Role::kServer, kSession, 1));
     EXPECT_EQ(others_[2]->hello, hello_of(Role::kServer, kSession, 1));
-    one->send(Connect{});
+    one->send(connect_to());
     EXPECT_EQ(one->ending(), "Connect is not expected now");
 }
 
 // A connection that is merely open takes no pixels yet.
-TEST_F(ServerTest, IsNotConnectedBeforeAllHaveSaidHello) {
-    const auto one = ready_client(setup(0, 2));
-    one->send(Connect{});
+TEST_F(ServerTest, IsNotConnectedBeforeAllHaveReadItsHello) {
+    const auto one = ready_client(setup(1));
+    one->send(connect_to(1));
+    const Peer other(loop_, doors_[0]->next(), hello_of(Role::kServer, kSession, 0));
+    loop_.run_until([&] { return other.connection->has_clock_offset(); });
     RawPeer display(loop_, display_door_.next());
+    // It says Hello, but not that it has read ours.
+    display.send(wire_bytes(hello_of(Role::kDisplay, kSession)));
     display.read(1);
-    const auto other = come(hello_of(Role::kServer, kSession, 1));
-    loop_.run_until([&] { return other->connection->has_clock_offset(); });
     one->send(task(0));
     EXPECT_EQ(one->ending(), "RenderFrame before Connected");
 }
 
 TEST_F(ServerTest, SaysWhereItCannotConnect) {
-    ServerSetup nowhere = setup();
-    nowhere.display = "nowhere";
-    const auto one = ready_client(nowhere);
-    one->send(Connect{});
+    const auto one = ready_client(setup());
+    one->send(Connect{"nowhere", {}});
     EXPECT_EQ(one->ending(), "address 'nowhere': expected HOST:PORT");
 
     Loop other;
-    nowhere.display = to_string(Door(other).address());  // closed by now
-    const auto two = ready_client(nowhere);
-    two->send(Connect{});
-    EXPECT_EQ(two->ending(),
-              "cannot connect to " + nowhere.display + ": Connection refused (tried for 0.2 s)");
+    const std::string closed = to_string(Door(other).address());
+    const auto two = ready_client(setup());
+    two->send(Connect{closed, {}});
+    EXPECT_EQ(two->ending(), "cannot connect to " + closed + ": Connection refused (tried for 0.2 s)");
 }
 
 TEST_F(ServerTest, SaysWhoAnswersInsteadOfTheDisplay) {
     const auto ending_with = [&](const Hello& hello) {
         const auto one = ready_client(setup());
-        one->send(Connect{});
+        one->send(connect_to());
         const Peer wrong(loop_, display_door_.next(), hello);
         return one->ending();
     };
@@ -194,7 +193,7 @@ TEST_F(ServerTest, TurnsAwayServersOfOtherSessionsAndStrangers) {
     EXPECT_EQ(turned_away(41, 2), "this server is in another session");
     EXPECT_EQ(turned_away(kSession, 2), "server 2 is not expected here");  // there is one already
     EXPECT_EQ(turned_away(kSession, 0), "server 0 is not expected here");  // we connect to that one
-    EXPECT_EQ(turned_away(kSession, 3), "server 3 is not expected here");
+    EXPECT_EQ(turned_away(kSession, 1), "server 1 is not expected here");  // that is ourselves
     EXPECT_FALSE(one->closed.has_value());
 }
 
@@ -207,6 +206,77 @@ TEST_F(ServerTest, TellsTheClientWhichPeerIsLost) {
     };
     EXPECT_THAT(ending_without(0), testing::MatchesRegex("lost server 0 at .*: closed the connection"));
     EXPECT_THAT(ending_without(2), testing::MatchesRegex("lost server 2 at .*: closed the connection"));
+}
+
+TEST_F(ServerTest, RefusesToConnectToWhomItKnows) {
+    const auto ending_after = [&](std::size_t server) {
+        const auto one = ready_client(setup(1));
+        const auto known = come(hello_of(Role::kServer, kSession, 2));
+        loop_.run_until([&] { return known->connection->has_clock_offset(); });
+        Connect connect = connect_to();
+        connect.peers.push_back({server_id(server), "127.0.0.1:1"});
+        one->send(connect);
+        return one->ending();
+    };
+    EXPECT_EQ(ending_after(1), "Connect: server 1 is not expected");
+    EXPECT_EQ(ending_after(2), "Connect: server 2 is not expected");
+}
+
+TEST_F(ServerTest, TakesServersThatJoinLaterAndForgetsThoseThatLeave) {
+    const auto one = connected_client(0, 2);
+    const auto newcomer = come(hello_of(Role::kServer, kSession, 7));
+    loop_.run_until([&] { return newcomer->connection->has_clock_offset(); });
+    RenderFrame swap = task(0);
+    swap.final_region = {{0, 0, 4, 4}};
+    swap.outgoing = {{server_id(7), {{4, 0, 8, 4}}}};
+    one->send(swap);
+    EXPECT_EQ(newcomer->expect<SwathPixels>().frame, 0u);
+    display_->expect<TilePixels>();
+    one->expect<ServerReport>();
+
+    newcomer->connection->finish();
+    others_[1]->connection->finish();
+    const auto again = come(hello_of(Role::kServer, kSession, 7));  // another one with that number
+    loop_.run_until([&] { return again->connection->has_clock_offset(); });
+    one->send(task(1));
+    display_->expect<TilePixels>();
+    one->expect<ServerReport>();
+    swap.frame = 2;
+    swap.outgoing[0].server = server_id(1);
+    one->send(swap);
+    EXPECT_EQ(one->ending(), "RenderFrame: an exchange with server 1");
+}
+
+TEST_F(ServerTest, TakesLeaveWhenItIsToldToStop) {
+    const auto one = connected_client(0, 2);
+    one->send(task(0));
+    bool left = false;
+    server_->leave([&] { left = true; });
+    one->expect<Leave>();
+    display_->expect<TilePixels>();
+    one->expect<ServerReport>();
+    EXPECT_EQ(client()->ending(), "this server is being stopped");
+    EXPECT_FALSE(left);
+    one->connection->finish();
+    EXPECT_EQ(others_[1]->ending(), "");
+    EXPECT_EQ(display_->ending(), "");
+    EXPECT_TRUE(loop_.run_until([&] { return left; }));
+}
+
+TEST_F(ServerTest, LeavesAtOnceWithoutAClient) {
+    bool left = false;
+    server_->leave([&] { left = true; });
+    EXPECT_TRUE(left);
+}
+
+TEST_F(ServerTest, AnswersAProbe) {
+    const auto probe = come(hello_of(Role::kProbe));
+    loop_.run_until([&] { return probe->connection->has_clock_offset(); });
+    EXPECT_EQ(probe->hello, hello_of(Role::kServer));
+    const auto one = connected_client();
+    probe->connection->finish();
+    one->send(task(0));
+    one->expect<ServerReport>();
 }
 
 TEST_F(ServerTest, TellsTheClientThatTheDisplayIsLost) {
@@ -265,7 +335,7 @@ TEST_F(ServerTest, EndsTheSessionWhenItCannotGoBackEither) {
 }
 
 TEST_F(ServerTest, RefusesToChangeOutOfTurn) {
-    const auto early = ready_client(setup());
+    const auto early = client();
     early->send(Reconfigure{});
     EXPECT_EQ(early->ending(), "Reconfigure is not expected now");
     // The renderer takes long enough for a message that is on its way already. The session's end waits for

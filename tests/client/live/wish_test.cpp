@@ -80,8 +80,15 @@ TEST_F(WishTest, KeepsTheShapeOfAPictureThatIsTooLarge) {
     EXPECT_EQ(wish_.width, 1999);
 }
 
+TEST_F(WishTest, OfNoNumberOfServersIsForAllOfThem) {
+    apply(R"({"servers":3})");
+    EXPECT_EQ(wish_.servers, 3u);
+    apply(R"({"servers":null})");
+    EXPECT_EQ(wish_.servers, std::nullopt);
+}
+
 TEST_F(WishTest, RefusesValuesOfAnotherKindOrBeyondTheLimits) {
-    for (const char* value : {"-1", "1.5", "\"1\"", "null", "[]", "{}", "true", "18446744073709551615", "0"})
+    for (const char* value : {"-1", "1.5", "\"1\"", "[]", "{}", "true", "18446744073709551615", "0"})
         EXPECT_EQ(refusal("servers", value), "a whole number from 1 to 4 is expected") << value;
     EXPECT_EQ(refusal("objects", "1000001"), "a whole number from 1 to 1000000 is expected");
     EXPECT_THAT(refusal("id", "1e300"), HasSubstr("a whole number"));
@@ -119,7 +126,7 @@ TEST_F(WishTest, OfRandomBytesIsRefusedOrAWish) {
         (void)apply_wish(text, 1, limits_, wish_);
         ASSERT_TRUE(camera_of(wish_.camera));
         ASSERT_TRUE(wish_.width >= 1 && wish_.width <= 2000 && wish_.height >= 1 && wish_.height <= 1000);
-        ASSERT_TRUE(wish_.servers >= 1 && wish_.servers <= 4);
+        ASSERT_TRUE(!wish_.servers || (*wish_.servers >= 1 && *wish_.servers <= 4));
     }
 }
 

@@ -56,7 +56,7 @@ void set_rects(google::protobuf::RepeatedField<std::int32_t>& field, const std::
 TEST(WireLimit, OfHello) {
     const Table<pb::Hello> hello(Hello{Role::kServer, 1, server_id(2), 3, 4}, &pb::Head::mutable_hello);
     hello.expect([](auto& m) { m.set_role(0); }, "a garbled hello message: role: 0 is none");
-    hello.expect([](auto& m) { m.set_role(4); }, "a garbled hello message: role: 4 is none");
+    hello.expect([](auto& m) { m.set_role(5); }, "a garbled hello message: role: 5 is none");
     hello.expect([](auto& m) { m.set_server(1024); },
                  "a garbled hello message: server: server 1024, the limit is 1024");
 }
@@ -75,12 +75,10 @@ TEST(WireLimit, OfTimes) {
 
 TEST(WireLimit, OfServerSetup) {
     ServerSetup valid;
-    valid.servers = {"a:1", "b:2"};
     valid.server = server_id(1);
     const Table<pb::ServerSetup> setup(valid, &pb::Head::mutable_server_setup);
     const std::string in = "a garbled server_setup message: ";
     setup.expect([](auto& m) { m.set_server(2000); }, in + "server: server 2000, the limit is 1024");
-    setup.expect([](auto& m) { m.set_server(2); }, in + "server: 2 of 2");
     setup.expect([](auto& m) { m.set_model(std::string(4097, 'x')); },
                  in + "model: 4097 bytes, the limit is 4096");
     setup.expect([](auto& m) { m.set_digest(std::string(31, 'x')); },
@@ -91,16 +89,6 @@ TEST(WireLimit, OfServerSetup) {
     setup.expect([](auto& m) { m.set_renderer(3); }, in + "renderer: 3 is none");
     setup.expect([](auto& m) { m.set_cull(0); }, in + "cull: 0 is none");
     setup.expect([](auto& m) { m.set_cull(5); }, in + "cull: 5 is none");
-    setup.expect([](auto& m) { m.clear_servers(); }, in + "servers: 0, the limits are 1 and 1024");
-    setup.expect(
-        [](auto& m) {
-            for (int i = 0; i < 1023; ++i) m.add_servers("c:3");
-        },
-        in + "servers: 1025, the limits are 1 and 1024");
-    setup.expect([](auto& m) { m.set_servers(1, std::string(5000, 'x')); },
-                 in + "servers: 5000 bytes, the limit is 4096");
-    setup.expect([](auto& m) { m.set_display(std::string(5000, 'x')); },
-                 in + "display: 5000 bytes, the limit is 4096");
     setup.expect([](auto& m) { m.set_frames_in_flight(0); },
                  in + "frames_in_flight: 0, the limits are 1 and 8");
     setup.expect([](auto& m) { m.set_frames_in_flight(9); },
@@ -110,11 +98,27 @@ TEST(WireLimit, OfServerSetup) {
 TEST(WireLimit, OfDisplaySetup) {
     const Table<pb::DisplaySetup> setup(DisplaySetup{}, &pb::Head::mutable_display_setup);
     const std::string in = "a garbled display_setup message: ";
-    setup.expect([](auto& m) { m.set_servers(0); }, in + "servers: 0, the limits are 1 and 1024");
-    setup.expect([](auto& m) { m.set_servers(1025); }, in + "servers: 1025, the limits are 1 and 1024");
     setup.expect([](auto& m) { m.set_format(3); }, in + "format: 3 is none");
     setup.expect([](auto& m) { m.set_frames_in_flight(9); },
                  in + "frames_in_flight: 9, the limits are 1 and 8");
+}
+
+TEST(WireLimit, OfConnect) {
+    const Connect valid{"d:1", {{server_id(0), "a:1"}, {server_id(5), "b:2"}}};
+    const Table<pb::Connect> connect(valid, &pb::Head::mutable_connect);
+    const std::string in = "a garbled connect message: ";
+    connect.expect([](auto& m) { m.set_display(std::string(5000, 'x')); },
+                   in + "display: 5000 bytes, the limit is 4096");
+    connect.expect([](auto& m) { m.mutable_peers(1)->set_server(0); }, in + "peers: not ascending");
+    connect.expect([](auto& m) { m.mutable_peers(1)->set_server(1024); },
+                   in + "peers: server 1024, the limit is 1024");
+    connect.expect([](auto& m) { m.mutable_peers(0)->set_address(std::string(5000, 'x')); },
+                   in + "peers: 5000 bytes, the limit is 4096");
+    connect.expect(
+        [](auto& m) {
+            for (int i = 0; i < 1023; ++i) m.add_peers();
+        },
+        in + "peers: 1025, the limit is 1024");
 }
 
 TEST(WireLimit, OfReconfigure) {

@@ -82,25 +82,28 @@ class Maker {
     ServerSetup server_setup() {
         ServerSetup m;
         m.session = u64();
-        m.servers.resize(1 + below(20));
-        for (std::string& s : m.servers) s = text();
-        m.server = server_id(below(static_cast<std::uint32_t>(m.servers.size())));
+        m.server = server();
         m.model = text();
         for (std::uint8_t& byte : m.digest) byte = static_cast<std::uint8_t>(u32());
         m.blob_bytes = u64();
         m.drawing = drawing();
-        m.display = text();
         m.frames_in_flight = 1 + below(kMaxFramesInFlight);
         return m;
     }
     DisplaySetup display_setup() {
         const auto format = static_cast<PictureFormat>(below(3));
-        return {u64(), 1 + below(kMaxServers), format, 1 + below(kMaxFramesInFlight), below(2) == 0};
+        return {u64(), format, 1 + below(kMaxFramesInFlight), below(2) == 0};
     }
     Drawing drawing() {
         return {static_cast<int>(below(kMaxOctreeDepth + 1)),
                 below(2) == 0 ? RendererKind::kOsmesa : RendererKind::kEgl,
                 static_cast<CullAlgorithm>(below(kCullAlgorithmCount))};
+    }
+    Connect connect() {
+        Connect m{text(), {}};
+        for (std::uint32_t id = below(3); id < kMaxServers && m.peers.size() < 20; id += 1 + below(90))
+            m.peers.push_back({server_id(id), text()});
+        return m;
     }
     Note note() { return {static_cast<NoteTopic>(1 + below(kNoteTopicCount)), u64()}; }
     template <class M>
@@ -121,7 +124,7 @@ class Maker {
         for (std::uint32_t& count : m.visible) count = u32() >> below(32);
         return m;
     }
-    Hello hello() { return {static_cast<Role>(1 + below(3)), u64(), server(), u32(), u32()}; }
+    Hello hello() { return {static_cast<Role>(1 + below(4)), u64(), server(), u32(), u32()}; }
     BodySizes sizes() { return {u32(), u32(), u32()}; }
 
   private:
@@ -141,7 +144,7 @@ std::vector<Message> sample_messages(std::uint32_t seed) {
     all.emplace_back(NeedModel{make.u64()});
     all.emplace_back(ModelPart{make.u64()});
     all.emplace_back(Ready{make.u64(), make.u64(), make.text(), make.text()});
-    all.emplace_back(Connect{});
+    all.emplace_back(make.connect());
     all.emplace_back(Connected{});
     all.emplace_back(make.render_frame());
     all.emplace_back(make.assemble_frame());
@@ -155,6 +158,7 @@ std::vector<Message> sample_messages(std::uint32_t seed) {
     all.emplace_back(Audience{make.u32()});
     all.emplace_back(Wish{make.u32()});
     all.emplace_back(make.note());
+    all.emplace_back(Leave{});
     return all;
 }
 

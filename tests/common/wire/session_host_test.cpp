@@ -40,6 +40,7 @@ class FakeSession final : public Session {
             fmt::format("{} left: {}", is_client ? "client" : "server", why ? "Bye" : why.error().message));
         return is_client;
     }
+    void leave() override { log_.emplace_back("leave"); }
     void stop() override {
         client_->finish();
         for (const auto& peer : peers_) peer->finish();

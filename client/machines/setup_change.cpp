@@ -1,4 +1,4 @@
-#include "client/live/setup_change.h"
+#include "client/machines/setup_change.h"
 
 #include "common/base/check.h"
 
