@@ -56,6 +56,8 @@ int main(int argc, char** argv) {
             web.published = *published;
         }
     }
+    // A terminal's Ctrl-C reaches all programs; one on a lifeline leaves it to the one that started it.
+    StopSignals signals(kExitDone, !program.lifeline);
     tune_allocator();
 
     const SteadyClock clock;
@@ -71,5 +73,5 @@ int main(int argc, char** argv) {
     if (!display) return run_error(display.error());
     announce((*display)->address());
     if (viewers) std::cout << "viewer " << viewers->url() << std::endl;
-    return run_until_stopped(io, **display, program);
+    return run_until_stopped(io, **display, signals, program);
 }

@@ -48,6 +48,8 @@ int main(int argc, char** argv) {
     options.cache = cache;
     options.cull_threads = drawing_threads(threads);
     set_raster_threads(threads);
+    // A terminal's Ctrl-C reaches all programs; one on a lifeline leaves it to the one that started it.
+    StopSignals signals(kExitDone, !program.lifeline);
     tune_allocator();
 
     const SteadyClock clock;
@@ -55,5 +57,5 @@ int main(int argc, char** argv) {
     const auto server = make_server(io, options, clock, make_renderer);
     if (!server) return run_error(server.error());
     announce((*server)->address());
-    return run_until_stopped(io, **server, program);
+    return run_until_stopped(io, **server, signals, program);
 }

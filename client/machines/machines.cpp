@@ -119,7 +119,8 @@ void Machines::find(const Address& address, bool first) {
     connect(id);
 }
 
-std::shared_ptr<Connection> Machines::open(boost::asio::ip::tcp::socket socket, Connection::Handlers handlers) {
+std::shared_ptr<Connection> Machines::open(boost::asio::ip::tcp::socket socket,
+                                           Connection::Handlers handlers) {
     Connection::Options options;
     options.hello.role = Role::kClient;
     options.timing = job_.timing;
@@ -131,42 +132,42 @@ std::shared_ptr<Connection> Machines::open(boost::asio::ip::tcp::socket socket, 
 void Machines::connect(ServerId id) {
     const Server& server = servers_.at(id);
     // A number may be somebody else's by the time that an attempt has failed.
-    async_connect(
-        io_, server.address, starting() ? job_.patience : kNewcomersPatience,
-        [self = shared_from_this(), id,
-         address = server.address](Result<boost::asio::ip::tcp::socket> socket) {
-            const auto found = self->servers_.find(id);
-            if (self->over_ || found == self->servers_.end() || found->second.address != address ||
-                found->second.connection)
-                return;
-            if (!socket) return self->drop(id, socket.error().message);
-            found->second.connection = self->open(
-                std::move(*socket), {[self, id](const Hello& hello) { return self->on_hello(id, hello); },
-                                     [self, id](Message&& message, Buffer&& body) {
-                                         return self->on_message(id, std::move(message), std::move(body));
-                                     },
-                                     [self, id](const Status& why) {
-                                         self->on_closed(id, why ? "ended the session" : why.error().message);
-                                     }});
-        });
+    async_connect(io_, server.address, starting() ? job_.patience : kNewcomersPatience,
+                  [self = shared_from_this(), id,
+                   address = server.address](Result<boost::asio::ip::tcp::socket> socket) {
+                      const auto found = self->servers_.find(id);
+                      if (self->over_ || found == self->servers_.end() || found->second.address != address ||
+                          found->second.connection)
+                          return;
+                      if (!socket) return self->drop(id, socket.error().message);
+                      found->second.connection = self->open(
+                          std::move(*socket),
+                          {[self, id](const Hello& hello) { return self->on_hello(id, hello); },
+                           [self, id](Message&& message, Buffer&& body) {
+                               return self->on_message(id, std::move(message), std::move(body));
+                           },
+                           [self, id](const Status& why) {
+                               self->on_closed(id, why ? "ended the session" : why.error().message);
+                           }});
+                  });
 }
 
 void Machines::connect_display() {
-    async_connect(
-        io_, job_.display, job_.patience,
-        [self = shared_from_this()](Result<boost::asio::ip::tcp::socket> socket) {
-            if (self->over_) return;
-            const std::string who = fmt::format("display at {}", to_string(self->job_.display));
-            if (!socket) return self->lose(who, socket.error().message);
-            self->display_ = self->open(
-                std::move(*socket), {[self](const Hello& hello) { return self->on_display_hello(hello); },
-                                     [self](Message&& message, Buffer&& body) {
-                                         return self->on_display_message(std::move(message), std::move(body));
-                                     },
-                                     [self, who](const Status& why) {
-                                         self->lose(who, why ? "ended the session" : why.error().message);
-                                     }});
-        });
+    async_connect(io_, job_.display, job_.patience,
+                  [self = shared_from_this()](Result<boost::asio::ip::tcp::socket> socket) {
+                      if (self->over_) return;
+                      const std::string who = fmt::format("display at {}", to_string(self->job_.display));
+                      if (!socket) return self->lose(who, socket.error().message);
+                      self->display_ = self->open(
+                          std::move(*socket),
+                          {[self](const Hello& hello) { return self->on_display_hello(hello); },
+                           [self](Message&& message, Buffer&& body) {
+                               return self->on_display_message(std::move(message), std::move(body));
+                           },
+                           [self, who](const Status& why) {
+                               self->lose(who, why ? "ended the session" : why.error().message);
+                           }});
+                  });
 }
 
 void Machines::on_closed(ServerId id, const std::string& why) {
@@ -184,7 +185,8 @@ void Machines::drop(ServerId id, const std::string& why) {
     servers_.erase(id);
     roster_.remove(id);
     const std::string address = to_string(server.address);
-    if (std::exchange(warned_[address], why) != why) spdlog::warn("{}: {}; going on without it", server.who, why);
+    if (std::exchange(warned_[address], why) != why)
+        spdlog::warn("{}: {}; going on without it", server.who, why);
     if (starting() && servers_.empty()) {
         if (clock_.now() - begin_ > job_.patience) return lose(server.who, why);
         found_ = false;
@@ -221,7 +223,8 @@ Status Machines::on_display_message(Message&& message, Buffer&& body) {
 
 Status Machines::on_message(ServerId id, Message&& message, Buffer&& body) {
     if (over_) return {};
-    if (const auto* need = std::get_if<NeedModel>(&message)) return send_model_part(servers_.at(id), need->offset);
+    if (const auto* need = std::get_if<NeedModel>(&message))
+        return send_model_part(servers_.at(id), need->offset);
     if (const auto* ready = std::get_if<Ready>(&message)) return on_ready(id, *ready);
     if (std::holds_alternative<Connected>(message)) {
         if (const Status status = roster_.on_linked(id); !status) return status;

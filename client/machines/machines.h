@@ -35,7 +35,7 @@ class Machines : public std::enable_shared_from_this<Machines> {
         PictureFormat format = PictureFormat::kNone;
         std::uint32_t frames_in_flight = 3;
         bool live = false;
-        std::uint64_t session = 0;  // a random number
+        std::uint64_t session = 0;                       // a random number
         Nanoseconds patience = std::chrono::seconds(5);  // until a run has started
         WireTiming timing;
     };

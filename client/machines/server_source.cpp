@@ -28,8 +28,7 @@ Result<ServerSource> parse_server_source(const std::vector<std::string>& texts) 
     ServerSource source;
     for (const std::string& text : texts) {
         const bool file = text.starts_with(kFile);
-        if ((file || is_name(text)) && texts.size() > 1)
-            return fail("'{}' must be the only one", text);
+        if ((file || is_name(text)) && texts.size() > 1) return fail("'{}' must be the only one", text);
         if (file) {
             source.kind = ServerSource::Kind::kFile;
             source.file = text.substr(kFile.size());
@@ -75,7 +74,8 @@ Result<std::vector<Address>> parse_server_list(std::string_view text) {
         if (what.empty()) continue;
         const auto address = parse_address(what);
         if (!address) return fail("line {}: {}", line, address.error().message);
-        if (addresses.size() == kMaxServers) return fail("line {}: more than {} addresses", line, kMaxServers);
+        if (addresses.size() == kMaxServers)
+            return fail("line {}: more than {} addresses", line, kMaxServers);
         addresses.push_back(*address);
     }
     return addresses;

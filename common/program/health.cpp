@@ -36,10 +36,9 @@ Status check_health(const Address& listening, Role role) {
         const auto connection = std::make_shared<Connection>(std::move(*socket), options, clock);
         const std::weak_ptr<Connection> weak = connection;
         connection->start({[&, weak](const Hello& hello) -> Status {
-                               status = hello.role == role
-                                            ? Status()
-                                            : fail("{} is a {}, not a {}", to_string(address),
-                                                   name(hello.role), name(role));
+                               status = hello.role == role ? Status()
+                                                           : fail("{} is a {}, not a {}", to_string(address),
+                                                                  name(hello.role), name(role));
                                weak.lock()->finish();
                                return {};
                            },

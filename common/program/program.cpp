@@ -13,8 +13,6 @@
 #include <iostream>
 #include <thread>
 
-#include "common/program/stop_signals.h"
-
 namespace swath {
 namespace asio = boost::asio;
 
@@ -66,9 +64,8 @@ void announce(const Address& address) {
     spdlog::info("listening on {}", to_string(address));
 }
 
-int run_until_stopped(asio::io_context& io, SessionHost& host, const ProgramOptions& options) {
-    // A terminal's Ctrl-C reaches all programs; one on a lifeline leaves it to the one that started it.
-    StopSignals signals(kExitDone, !options.lifeline);
+int run_until_stopped(asio::io_context& io, SessionHost& host, StopSignals& signals,
+                      const ProgramOptions& options) {
     asio::steady_timer last_words(io);
     signals.on_stop([&] {
         asio::post(io, [&] {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/program/cli.h"
+#include "common/program/stop_signals.h"
 #include "common/wire/address.h"
 #include "common/wire/connection.h"
 #include "common/wire/session_host.h"
@@ -35,9 +36,10 @@ void start_log(const std::string& program, const ProgramOptions& options);
 // Prints "listening HOST:PORT" to stdout, for whoever started the program with port 0.
 void announce(const Address& address);
 
-// Runs `io` until SIGINT or SIGTERM; with a lifeline until SIGTERM or until stdin closes: the program that
-// started us has gone. A signal lets `host` take leave first, for StopSignals::kGrace at most.
-int run_until_stopped(boost::asio::io_context& io, SessionHost& host, const ProgramOptions& options);
+// Runs `io` until a signal comes; with a lifeline also until stdin closes: the program that started us has
+// gone. A signal lets `host` take leave first, for StopSignals::kGrace at most.
+int run_until_stopped(boost::asio::io_context& io, SessionHost& host, StopSignals& signals,
+                      const ProgramOptions& options);
 
 // $XDG_CACHE_HOME/swath, else ~/.cache/swath.
 std::string default_cache_folder();

@@ -40,8 +40,6 @@ void StopSignals::wait() {
 }
 
 // Work in progress (a frame, a model being read) is dropped rather than waited for.
-void StopSignals::end() const {
-    std::_Exit(exit_code_);
-}
+void StopSignals::end() const { std::_Exit(exit_code_); }
 
 }  // namespace swath

@@ -42,8 +42,8 @@ TEST_F(DiscoveryTest, OfAListIsTheListAgainAndAgain) {
 
 TEST_F(DiscoveryTest, OfANameIsItsAddresses) {
     discover("dns:localhost:4000");
-    EXPECT_THAT(*next(), testing::AnyOf(ElementsAre(Address{"127.0.0.1", 4000}),
-                                        ElementsAre(Address{"::1", 4000})));
+    EXPECT_THAT(*next(),
+                testing::AnyOf(ElementsAre(Address{"127.0.0.1", 4000}), ElementsAre(Address{"::1", 4000})));
 }
 
 TEST_F(DiscoveryTest, SaysThatANameIsUnknownAndAsksAgain) {

@@ -41,7 +41,9 @@ class MachinesTest : public testing::Test {
             log_.push_back("started " + page);
             return Status();
         };
-        handlers.on_members = [this] { log_.push_back(fmt::format("{} members", machines_->members().size())); };
+        handlers.on_members = [this] {
+            log_.push_back(fmt::format("{} members", machines_->members().size()));
+        };
         handlers.on_server = [this](ServerId server, Message&& message, Buffer&&) {
             log_.push_back(fmt::format("{} from {}", name(message), index(server)));
             return Status();
@@ -74,8 +76,9 @@ class MachinesTest : public testing::Test {
         auto server = ready(door, id);
         server->expect<Connect>();
         server->send(Connected{});
-        loop_.run_until([&] { return std::count(machines_->members().begin(), machines_->members().end(),
-                                                server_id(id)) > 0; });
+        loop_.run_until([&] {
+            return std::count(machines_->members().begin(), machines_->members().end(), server_id(id)) > 0;
+        });
         return server;
     }
     // Its display and one server.
@@ -144,7 +147,8 @@ TEST_F(MachinesTest, TakeNewcomersAndLetThemGo) {
     run();
     list({address(one_), address(two_)});
     const auto newcomer = ready(two_, 1);
-    EXPECT_EQ(newcomer->expect<Connect>(), (Connect{address(display_door_), {{server_id(0), address(one_)}}}));
+    EXPECT_EQ(newcomer->expect<Connect>(),
+              (Connect{address(display_door_), {{server_id(0), address(one_)}}}));
     EXPECT_THAT(log_, IsEmpty());
     newcomer->send(Connected{});
     EXPECT_EQ(said(), "2 members");

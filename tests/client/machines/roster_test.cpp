@@ -123,8 +123,8 @@ TEST_F(RosterTest, LinksToPeersInOrderOfTheirNumbersAfterTheyWentRound) {
     EXPECT_EQ(index(last), kMaxServers - 1);
     ready();
     ready();
-    EXPECT_THAT(batch(), ElementsAre(testing::Pair(0, ElementsAre(last)),
-                                     testing::Pair(1, ElementsAre(id(0), last))));
+    EXPECT_THAT(batch(),
+                ElementsAre(testing::Pair(0, ElementsAre(last)), testing::Pair(1, ElementsAre(id(0), last))));
 }
 
 }  // namespace
