@@ -40,7 +40,8 @@ class Membership : public EndToEnd {
         display_address_ = listening_address(*display_);
     }
     std::unique_ptr<Process> start_client(const std::string& servers, const Arguments& more) const {
-        return start("swath-client", Arguments{kModel, "--servers", servers, "--display", display_address_} + more);
+        return start("swath-client",
+                     Arguments{kModel, "--servers", servers, "--display", display_address_} + more);
     }
     std::string single(const LiveViewer& viewer) {
         const std::string camera = files_.write("view.camera", viewer.camera_line());
@@ -64,7 +65,9 @@ class Membership : public EndToEnd {
                    picture.header["plan"]["servers"] == servers;
         });
     }
-    static bool has_servers(const Json& session, std::size_t count) { return session["servers"].size() == count; }
+    static bool has_servers(const Json& session, std::size_t count) {
+        return session["servers"].size() == count;
+    }
 
     static constexpr const char* kModel = "builtin:knot:20000";
     const Json home_{{"camera", {0.5, 1.25, 7.5, 0.1, 0, 0, 0, 1, 0, 34.5}}, {"width", 320}, {"height", 240}};
@@ -146,8 +149,8 @@ TEST_F(Membership, PicturesOfARunAreTheSameWhileServersComeAndGo) {
         list(addresses);
         const std::string out = files_.path_of(std::string("out_") + algorithm);
         const std::string timeline = files_.path_of(std::string("timeline_") + algorithm + ".csv");
-        const auto client =
-            start_client(from_list(), path + Arguments{"--out", out, "--algorithm", algorithm, "--timeline", timeline});
+        const auto client = start_client(
+            from_list(), path + Arguments{"--out", out, "--algorithm", algorithm, "--timeline", timeline});
         client->wait_for_line("/400 frames", kPatience);
         expect_stops(*others[0].process);
         client->wait_for_line("2 servers take part", kPatience);
@@ -203,8 +206,8 @@ TEST_F(Membership, RunSaysThatItFoundNobody) {
     list({"# nobody yet"});
     expect_one_error(start_client(from_list(), {"--connect-s", "0.3"})->wait(kPatience), 1,
                      {from_list(), "no servers"});
-    expect_one_error(start_client("dns:no-such-host.invalid:4000", {"--connect-s", "0.3"})->wait(kPatience), 1,
-                     {"no-such-host.invalid"});
+    expect_one_error(start_client("dns:no-such-host.invalid:4000", {"--connect-s", "0.3"})->wait(kPatience),
+                     1, {"no-such-host.invalid"});
     files_.write("servers", "a b\n");
     expect_one_error(start_client(from_list(), {})->wait(kPatience), 1, {"servers", "line 1", "'a b'"});
     expect_one_error(start_client("file:" + files_.path_of("none"), {})->wait(kPatience), 1, {"none"});
@@ -251,7 +254,8 @@ TEST_F(Membership, HealthIsThatSomebodyAnswers) {
 
 TEST_F(Membership, PageIsWhereItIsPublished) {
     const auto address_of_page = [&](const Arguments& more) {
-        const auto display = start("swath-display", Arguments{"--listen", "127.0.0.1:0", "--view", "0.0.0.0:0"} + more);
+        const auto display =
+            start("swath-display", Arguments{"--listen", "127.0.0.1:0", "--view", "0.0.0.0:0"} + more);
         const std::string page = display->wait_for_line("viewer ", kPatience);
         expect_stops(*display);
         return page;
@@ -262,8 +266,9 @@ TEST_F(Membership, PageIsWhereItIsPublished) {
                 testing::StartsWith("viewer http://swath.example:8080/?token="));
     EXPECT_THAT(address_of_page({}), HasSubstr("/?token="));
     for (const char* nowhere : {"0.0.0.0:8080", "[::]:8080"})
-        expect_one_error(run("swath-display", {"--listen", "127.0.0.1:0", "--view", "0", "--view-at", nowhere}), 1,
-                         {"--view", nowhere});
+        expect_one_error(
+            run("swath-display", {"--listen", "127.0.0.1:0", "--view", "0", "--view-at", nowhere}), 1,
+            {"--view", nowhere});
     expect_one_error(run("swath-display", {"--view", "0", "--view-at", "8080"}), 2, {"--view-at", "8080"});
 }
 

@@ -17,7 +17,7 @@ constexpr const char* kAtRest = R"js((() => {
         const plan = swath.plan(stream);
         const canvas = document.getElementById(`picture-${stream}`);
         return canvas.dataset.format === 'png' && plan.algorithm === algorithm &&
-            plan.servers === state.servers && plan.width === state.width && plan.height === state.height &&
+            plan.servers === (state.servers ?? swath.session.servers.length) && plan.width === state.width && plan.height === state.height &&
             String(plan.camera) === String(state.camera);
     });
 })())js";

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <csignal>
+
 #include "tests/e2e/browser/live_page.h"
 
 namespace swath::test {
@@ -33,6 +35,36 @@ class LiveViewers : public LivePage {
 
     json camera() { return drawn().plan.at("camera"); }
 };
+
+TEST_F(LiveViewers, ServersThatJoinAndLeaveAreShown) {
+    start_cluster();
+    start_client_of_cluster({"--view"});
+    open_page(page_address(*client_));
+    wait_for_rest();
+    drag_picture(100, 50);
+    wait_for_rest();
+    EXPECT_EQ(text_of("servers-of"), "2 of 2");
+    const json steered = camera();
+
+    cluster_->server(1).signal(SIGTERM);
+    EXPECT_EQ(cluster_->server(1).wait(kPatience).exit_code, 0);
+    wait_until("swath.session.servers.length === 1");
+    wait_for_rest();
+    EXPECT_EQ(text_of("servers-of"), "1 of 1");
+    EXPECT_EQ(drawn().plan.at("servers"), 1);
+    // The camera stays where it is.
+    EXPECT_EQ(camera(), steered);
+    expect_exact();
+    EXPECT_EQ(browser().evaluate("swath.leads"), true);
+
+    const auto back = start("swath-server", {"--listen", cluster_->server_address(1)});
+    wait_until("swath.session.servers.length === 2");
+    wait_for_rest();
+    EXPECT_EQ(text_of("servers-of"), "2 of 2");
+    EXPECT_EQ(drawn().plan.at("servers"), 2);
+    expect_exact();
+    end_client();
+}
 
 TEST_F(LiveViewers, OneSteersAndTheOtherFollowsUntilItTakesOver) {
     start_view({.width = 1000, .height = 700});
