@@ -6,14 +6,12 @@
 
 namespace swath {
 
-// Numbers go round, so that one that somebody has just had is not given out again at once.
 ServerId Roster::add() {
     CHECK(full() == false);
-    while (servers_.contains(server_id(next_))) next_ = (next_ + 1) % kMaxServers;
-    const ServerId server = server_id(next_);
-    next_ = (next_ + 1) % kMaxServers;
-    servers_[server] = {};
-    return server;
+    std::size_t number = 0;
+    while (servers_.contains(server_id(number))) ++number;
+    servers_[server_id(number)] = {};
+    return server_id(number);
 }
 
 void Roster::remove(ServerId server) { servers_.erase(server); }

@@ -22,7 +22,7 @@ class Roster {
     };
 
     bool full() const { return servers_.size() >= kMaxServers; }
-    // One that is not ready yet. Not when full.
+    // One that is not ready yet, with the smallest number that is free. Not when full.
     ServerId add();
     // Gone, or let go. Nothing about it may follow.
     void remove(ServerId server);
@@ -57,7 +57,6 @@ class Roster {
     static bool takes_part(const Server& server);
 
     std::map<ServerId, Server> servers_;
-    std::size_t next_ = 0;  // number, if it is free
 };
 
 }  // namespace swath

@@ -25,7 +25,7 @@ class StopSignals {
     // returns the one before is not being called any more.
     void on_stop(std::function<void()> ask);
 
-    static constexpr std::chrono::milliseconds kGrace{1500};
+    static constexpr std::chrono::milliseconds kGrace{1700};
 
   private:
     void wait();
