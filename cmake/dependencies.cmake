@@ -10,14 +10,16 @@ find_package(nlohmann_json REQUIRED)
 find_package(PNG REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(assimp REQUIRED)
-find_package(GTest REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
-# Benchmarks only.
-pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)
+if(SWATH_TESTS)
+  find_package(GTest REQUIRED)
+  # Benchmarks only.
+  pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)
+endif()
 
 # tl::expected is one header.
 find_path(SWATH_EXPECTED_INCLUDE tl/expected.hpp REQUIRED)
