@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
         bool draws = false;
     };
     const std::map<std::string, Benchmark> benchmarks{{"cluster", {bench::bench_cluster}},
+                                                      {"compose", {bench::bench_compose, false}},
                                                       {"culling", {bench::bench_culling, false, true}},
                                                       {"culling-render", {bench::bench_culling_render}},
                                                       {"load", {bench::bench_load}},
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
         "swath-bench: every figure that docs/benchmarks.md names, as ratios within one run where that is "
         "possible.\n"
         "  cluster    real processes: CPU of a cluster of one, and speed-up of two, against --single\n"
+        "  compose    docker/compose.yaml from nothing to the first picture\n"
         "  culling    culling and sorting: ours beside both papers' and Bullet's\n"
         "  culling-render  what culling by leaf saves: triangles and time, from inside and sort-first\n"
         "  load       reading the Dragon and cutting it into objects\n"
@@ -41,8 +43,8 @@ int main(int argc, char** argv) {
         "  viewer     what somebody who looks costs, and what they get: pictures a second, lag\n"};
     app.add_option("NAME", name, "which")
         ->required()
-        ->check(CLI::IsMember(
-            {"cluster", "culling", "culling-render", "load", "peers", "simulator", "swap", "viewer"}));
+        ->check(CLI::IsMember({"cluster", "compose", "culling", "culling-render", "load", "peers",
+                               "simulator", "swap", "viewer"}));
     app.add_option("--json", json, "write {\"figures\": {name: number}} to this file");
     app.add_option("--out", out, "culling: also draw plots, into this folder, with their numbers as CSV");
     app.add_flag("--smoke", smoke,

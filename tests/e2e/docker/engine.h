@@ -1,0 +1,79 @@
+#pragma once
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/support/process.h"
+
+namespace swath::test {
+
+using Arguments = std::vector<std::string>;
+
+// The command `docker` and what answers it. Every wait has a limit; nothing here expects anything.
+
+// Empty, or why there is no engine to test with: no command, none that answers, or no compose.
+const std::string& no_engine();
+
+// Runs `docker ARGUMENTS...`.
+Finished docker(const Arguments& arguments, std::chrono::milliseconds limit = std::chrono::seconds(60));
+// The same, as its standard output without the white space around it; throws std::runtime_error when it
+// fails.
+std::string docker_says(const Arguments& arguments);
+std::vector<std::string> docker_lines(const Arguments& arguments);
+
+// The image under test. $SWATH_IMAGE names one that is there already; otherwise it is built from the working
+// tree, under a name of its own.
+class Image {
+  public:
+    // Builds, with the builder's output on ours. Throws std::runtime_error when it fails.
+    Image();
+    ~Image();  // removes what it built, but for the build cache
+    Image(const Image&) = delete;
+    Image& operator=(const Image&) = delete;
+    const std::string& name() const { return name_; }
+
+  private:
+    std::string name_;
+    bool ours_ = false;
+};
+
+// A compose project of docker/compose.yaml with a name and a port of its own. It ends with the object,
+// whatever has happened to it.
+class Cluster {
+  public:
+    struct Options {
+        std::string model;
+        std::string size;
+        std::vector<std::string> files{"compose.yaml"};  // of docker/
+    };
+    Cluster(const Image& image, const Options& options);
+    ~Cluster();
+    Cluster(const Cluster&) = delete;
+    Cluster& operator=(const Cluster&) = delete;
+
+    // Runs `docker compose ARGUMENTS...`, or docker-compose, on the project.
+    Finished compose(const Arguments& arguments,
+                     std::chrono::milliseconds limit = std::chrono::seconds(120)) const;
+    // `up -d` with this many servers. With `client` off only servers and display. Throws when it fails.
+    void up(int servers, bool client = true) const;
+    void down() const;
+
+    // The service's containers that run.
+    std::vector<std::string> running(const std::string& service) const;
+    // All that the project has: containers, networks, volumes.
+    std::vector<std::string> left() const;
+    std::string logs() const;
+
+    // "127.0.0.1:PORT", where its page is published.
+    const std::string& view() const { return view_; }
+    std::string network() const { return project_ + "_default"; }
+
+  private:
+    std::string project_;
+    std::string view_;
+    std::vector<std::string> environment_;
+    Arguments files_;
+};
+
+}  // namespace swath::test
