@@ -69,9 +69,14 @@ class Compose : public testing::Test {
         const auto session =
             viewer.note("session", [&](const Json& note) { return note["servers"].size() == servers; });
         ASSERT_TRUE(session.is_object()) << "never " << servers << " servers";
-        const auto still = viewer.still(viewer.wish(kView));
+        // All wish the same, which is not drawn again for every one of them.
+        viewer.wish(kView);
+        const auto still = viewer.picture([&](const LiveViewer::Picture& p) {
+            const Json& plan = p.header["plan"];
+            return p.header["format"] == "png" && plan.is_object() && plan["wish"] > 0 &&
+                   plan["servers"] == servers;
+        });
         ASSERT_FALSE(still.file.empty());
-        EXPECT_EQ(still.header["plan"]["servers"], servers);
         static std::string expected;
         if (expected.empty())
             expected = single("echo '" + viewer.camera_line() + "' >/tmp/camera", "--path /tmp/camera");
@@ -177,7 +182,7 @@ TEST_F(Compose, PapersNetworkIsThatSlowAndItsProgramsHaveNoRights) {
     for (const char* service : {"client", "display", "server"}) {
         const std::string container = cluster_->running(service).front();
         EXPECT_THAT(docker_says({"exec", container, "tc", "qdisc", "show", "dev", "eth0"}),
-                    HasSubstr("tbf 8001: root refcnt"));
+                    HasSubstr("rate 800Mbit"));
         const std::string status = docker_says({"exec", container, "cat", "/proc/1/status"});
         EXPECT_THAT(status, HasSubstr("Uid:\t10001\t10001\t10001\t10001"));
         EXPECT_THAT(status, HasSubstr("CapPrm:\t0000000000000000"));
