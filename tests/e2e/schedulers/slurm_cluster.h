@@ -1,0 +1,42 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/e2e/programs.h"
+
+namespace swath::test {
+
+// A Slurm cluster on this machine, for whoever runs the test: munged, slurmctld, and a slurmd for each of the nodes n1, n2,
+// ..., all with files, sockets and keys in a folder of the test and on free ports. Every node says that it has four
+// CPUs. Node i is at 127.0.0.i. Ends with the object, jobs included.
+class SlurmCluster {
+  public:
+    // What is not installed, and how to get it; empty when all is there.
+    static std::string missing();
+
+    SlurmCluster(const std::filesystem::path& folder, int nodes);
+    ~SlurmCluster();
+    SlurmCluster(const SlurmCluster&) = delete;
+    SlurmCluster& operator=(const SlurmCluster&) = delete;
+
+    // Submits docker/slurm/swath.sbatch from a folder and returns the job's number.
+    std::string submit(const std::filesystem::path& folder, const Arguments& sbatch, const Arguments& swath,
+                       std::vector<std::string> environment = {}) const;
+    void cancel(const std::string& job) const;
+    // Waits until nothing of it runs and returns its state and exit code: "COMPLETED 0:0".
+    std::string end_of(const std::string& job) const;
+
+  private:
+    Finished run(const std::string& program, const Arguments& arguments,
+                 std::vector<std::string> environment = {}, const std::filesystem::path& folder = {}) const;
+
+    std::string configuration_;
+    std::vector<std::unique_ptr<Process>> daemons_;
+};
+
+// Asks again and again, up to a limit, until it is true.
+bool eventually(const std::function<bool()>& condition, std::chrono::milliseconds limit = kPatience);
+
+}  // namespace swath::test
