@@ -24,13 +24,33 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kBetweenQuestions(100);
 constexpr std::chrono::seconds kDaemonEnds(10);
 
+// Where script/bootstrap --schedulers unpacks Debian's packages.
+const fs::path& unpacked() {
+    static const fs::path folder = SWATH_SLURM;
+    return folder;
+}
+fs::path libraries() { return unpacked() / "usr/lib/x86_64-linux-gnu"; }
+
 std::optional<fs::path> find(const std::string& program) {
     const char* path = std::getenv("PATH");
     // Daemons are where a user's PATH often does not reach.
-    std::istringstream folders(std::string(path == nullptr ? "" : path) + ":/usr/sbin:/sbin");
+    std::istringstream folders(fmt::format("{0}/usr/bin:{0}/usr/sbin:{1}:/usr/sbin:/sbin", unpacked().string(),
+                                           path == nullptr ? "" : path));
     for (std::string folder; std::getline(folders, folder, ':');)
-        if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return fs::path(folder) / program;
+        // Debian's daemons have a second name, to which alternatives point where they are installed.
+        for (const std::string& name : {program, program + "-wlm"})
+            if (::access((fs::path(folder) / name).c_str(), X_OK) == 0) return fs::path(folder) / name;
     return {};
+}
+
+std::vector<std::string> with_slurm(std::vector<std::string> environment, const std::string& configuration) {
+    environment.push_back("SLURM_CONF=" + configuration);
+    if (fs::exists(unpacked())) {
+        const char* path = std::getenv("PATH");
+        environment.push_back(fmt::format("PATH={}/usr/bin:{}", unpacked().string(), path == nullptr ? "" : path));
+        environment.push_back(fmt::format("LD_LIBRARY_PATH={0}:{0}/slurm-wlm", libraries().string()));
+    }
+    return environment;
 }
 
 std::vector<int> free_ports(std::size_t count) {
@@ -83,6 +103,7 @@ KillWait=5
     for (std::size_t node = 1; node < ports.size(); ++node)
         text += fmt::format("NodeName=n{} NodeHostname=localhost NodeAddr=127.0.0.{} Port={} CPUs=4\n", node,
                             node, ports[node]);
+    if (fs::exists(unpacked())) text += fmt::format("PluginDir={}/slurm-wlm\n", libraries().string());
     return text + "PartitionName=all Nodes=ALL Default=YES State=UP\n";
 }
 
@@ -98,8 +119,8 @@ bool eventually(const std::function<bool()>& condition, std::chrono::millisecond
 }
 
 std::string SlurmCluster::missing() {
-    for (const char* program : {"munged", "slurmctld", "slurmd", "sbatch", "srun", "scancel", "scontrol", "sinfo"})
-        if (!find(program)) return fmt::format("no {} here (script/bootstrap --schedulers installs it)", program);
+    for (const char* program : {"munged", "slurmctld", "slurmd", "slurmstepd", "sbatch", "srun", "scancel", "scontrol", "sinfo", "squeue"})
+        if (!find(program)) return fmt::format("no {} here (script/bootstrap --schedulers gets it)", program);
     return {};
 }
 
@@ -115,7 +136,7 @@ SlurmCluster::SlurmCluster(const fs::path& folder, int nodes) : configuration_(f
 
     const auto start = [&](const std::string& program, const Arguments& arguments) {
         daemons_.push_back(std::make_unique<Process>(*find(program), arguments,
-                                                     Process::Options{{"SLURM_CONF=" + configuration_}, {}}));
+                                                     Process::Options{with_slurm({}, configuration_), {}}));
     };
     const auto in_folder = [&](const char* name) { return (folder / name).string(); };
     start("munged", {"--foreground", "--num-threads", "2", "--key-file", key, "--socket", in_folder("munge.sock"),
@@ -124,7 +145,8 @@ SlurmCluster::SlurmCluster(const fs::path& folder, int nodes) : configuration_(f
     if (!eventually([&] { return fs::exists(folder / "munge.sock"); }))
         throw std::runtime_error("munged does not start:\n" + contents(folder / "munged.log"));
     start("slurmctld", {"-D", "-c"});
-    for (int node = 1; node <= nodes; ++node) start("slurmd", {"-D", "-N", fmt::format("n{}", node)});
+    for (int node = 1; node <= nodes; ++node)
+        start("slurmd", {"-D", "-N", fmt::format("n{}", node), "-d", find("slurmstepd")->string()});
     const std::string idle = fmt::format("idle {}\n", nodes);
     if (!eventually([&] { return run("sinfo", {"--noheader", "--format=%T %D"}).out == idle; }))
         throw std::runtime_error("Slurm does not start:\n" + contents(folder / "slurmctld.log"));
@@ -147,8 +169,8 @@ SlurmCluster::~SlurmCluster() {
 
 Finished SlurmCluster::run(const std::string& program, const Arguments& arguments,
                            std::vector<std::string> environment, const fs::path& folder) const {
-    environment.push_back("SLURM_CONF=" + configuration_);
-    return Process(*find(program), arguments, {std::move(environment), folder}).wait(kPatience);
+    return Process(*find(program), arguments, {with_slurm(std::move(environment), configuration_), folder})
+        .wait(kPatience);
 }
 
 std::string SlurmCluster::submit(const fs::path& folder, const Arguments& sbatch, const Arguments& swath,

@@ -139,27 +139,25 @@ TEST_F(Slurm, ADisplayThatDiesFailsTheJobWithALineThatNamesIt) {
 }
 
 TEST_F(Slurm, WhatCannotBeDoneFailsTheJobWithOneClearLine) {
-    const std::string no_model = submit({"--ntasks=2"}, {"nosuch.ply"});
-    EXPECT_EQ(cluster_->end_of(no_model), "FAILED 1:0");
-    EXPECT_THAT(output(no_model), HasSubstr("error: nosuch.ply: No such file or directory\n"));
-
-    const std::string bad_flag = submit({"--ntasks=2"}, {"builtin:knot", "--nosuch"});
-    EXPECT_EQ(cluster_->end_of(bad_flag), "FAILED 2:0");
-    EXPECT_THAT(output(bad_flag), HasSubstr("--nosuch"));
-
-    const std::string no_programs = submit({"--ntasks=2"}, kFrames, "/nosuch");
-    EXPECT_EQ(cluster_->end_of(no_programs), "FAILED 1:0");
-    EXPECT_THAT(output(no_programs), testing::StartsWith("swath.sbatch: no /nosuch/swath-client on n1: "));
-
     // A node that lacks what the first one has.
     const fs::path some = files_.path_of("some");
     fs::create_directories(some);
     for (const char* program : {"swath-client", "swath-display"})
         fs::create_symlink(fs::path(SWATH_PROGRAMS) / program, some / program);
+    const std::string no_model = submit({"--ntasks=2"}, {"nosuch.ply"});
+    const std::string bad_flag = submit({"--ntasks=2"}, {"builtin:knot", "--nosuch"});
+    const std::string no_programs = submit({"--ntasks=2"}, kFrames, "/nosuch");
     const std::string no_server = submit({"--nodes=2"}, kFrames, some);
+
+    EXPECT_EQ(cluster_->end_of(no_model), "FAILED 1:0");
+    EXPECT_THAT(output(no_model), HasSubstr("error: nosuch.ply: No such file or directory\n"));
+    EXPECT_EQ(cluster_->end_of(bad_flag), "FAILED 2:0");
+    EXPECT_THAT(output(bad_flag), HasSubstr("--nosuch"));
+    EXPECT_EQ(cluster_->end_of(no_programs), "FAILED 1:0");
+    EXPECT_THAT(output(no_programs), testing::ContainsRegex("^swath.sbatch: no /nosuch/swath-client on n[1-3]: "));
     EXPECT_EQ(cluster_->end_of(no_server), "FAILED 1:0");
     EXPECT_THAT(output(no_server), testing::ContainsRegex("^swath.sbatch: a server did not start: [01]: error: "
-                                                          "no .*/some/swath-server on n[12] "));
+                                                          "no .*/some/swath-server on n[1-3] "));
 }
 
 TEST_F(Slurm, TheLivePageIsReachedThroughATunnelWithItsToken) {
