@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -34,8 +35,8 @@ fs::path libraries() { return unpacked() / "usr/lib/x86_64-linux-gnu"; }
 std::optional<fs::path> find(const std::string& program) {
     const char* path = std::getenv("PATH");
     // Daemons are where a user's PATH often does not reach.
-    std::istringstream folders(fmt::format("{0}/usr/bin:{0}/usr/sbin:{1}:/usr/sbin:/sbin", unpacked().string(),
-                                           path == nullptr ? "" : path));
+    std::istringstream folders(fmt::format("{0}/usr/bin:{0}/usr/sbin:{1}:/usr/sbin:/sbin",
+                                           unpacked().string(), path == nullptr ? "" : path));
     for (std::string folder; std::getline(folders, folder, ':');)
         // Debian's daemons have a second name, to which alternatives point where they are installed.
         for (const std::string& name : {program, program + "-wlm"})
@@ -47,7 +48,8 @@ std::vector<std::string> with_slurm(std::vector<std::string> environment, const 
     environment.push_back("SLURM_CONF=" + configuration);
     if (fs::exists(unpacked())) {
         const char* path = std::getenv("PATH");
-        environment.push_back(fmt::format("PATH={}/usr/bin:{}", unpacked().string(), path == nullptr ? "" : path));
+        environment.push_back(
+            fmt::format("PATH={}/usr/bin:{}", unpacked().string(), path == nullptr ? "" : path));
         environment.push_back(fmt::format("LD_LIBRARY_PATH={0}:{0}/slurm-wlm", libraries().string()));
     }
     return environment;
@@ -119,7 +121,8 @@ bool eventually(const std::function<bool()>& condition, std::chrono::millisecond
 }
 
 std::string SlurmCluster::missing() {
-    for (const char* program : {"munged", "slurmctld", "slurmd", "slurmstepd", "sbatch", "srun", "scancel", "scontrol", "sinfo", "squeue"})
+    for (const char* program : {"munged", "slurmctld", "slurmd", "slurmstepd", "sbatch", "srun", "scancel",
+                                "scontrol", "sinfo", "squeue"})
         if (!find(program)) return fmt::format("no {} here (script/bootstrap --schedulers gets it)", program);
     return {};
 }
@@ -139,9 +142,9 @@ SlurmCluster::SlurmCluster(const fs::path& folder, int nodes) : configuration_(f
                                                      Process::Options{with_slurm({}, configuration_), {}}));
     };
     const auto in_folder = [&](const char* name) { return (folder / name).string(); };
-    start("munged", {"--foreground", "--num-threads", "2", "--key-file", key, "--socket", in_folder("munge.sock"),
-                     "--pid-file", in_folder("munged.pid"), "--log-file", in_folder("munged.log"), "--seed-file",
-                     in_folder("munge.seed")});
+    start("munged", {"--foreground", "--num-threads", "2", "--key-file", key, "--socket",
+                     in_folder("munge.sock"), "--pid-file", in_folder("munged.pid"), "--log-file",
+                     in_folder("munged.log"), "--seed-file", in_folder("munge.seed")});
     if (!eventually([&] { return fs::exists(folder / "munge.sock"); }))
         throw std::runtime_error("munged does not start:\n" + contents(folder / "munged.log"));
     start("slurmctld", {"-D", "-c"});
@@ -164,6 +167,9 @@ SlurmCluster::~SlurmCluster() {
         } catch (const std::exception& error) {
             ADD_FAILURE() << error.what();
         }
+    }
+    // slurmd leaves its steps to init, for which the test stands.
+    while (::waitpid(-1, nullptr, WNOHANG) > 0) {
     }
 }
 

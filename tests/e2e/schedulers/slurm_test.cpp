@@ -37,7 +37,8 @@ class Slurm : public EndToEnd {
         cluster_.reset();
         if (HasFailure())
             for (const std::string& name : file_names(submitted_from_))
-                if (name.starts_with("swath-")) ADD_FAILURE() << name << ":\n" << contents(submitted_from_ / name);
+                if (name.starts_with("swath-"))
+                    ADD_FAILURE() << name << ":\n" << contents(submitted_from_ / name);
         EXPECT_TRUE(!fs::exists(temporary_) || fs::is_empty(temporary_)) << "a cache is left";
         EndToEnd::TearDown();
     }
@@ -80,24 +81,27 @@ class Slurm : public EndToEnd {
 TEST_F(Slurm, AJobOnSeveralNodesDrawsWhatOneProcessDraws) {
     const std::string job = submit({"--nodes=3"}, kFrames + Arguments{"--out", "out"});
     expect_exact(job, kFrames);
-    EXPECT_THAT(output(job), AllOf(HasSubstr("server 0   n1, 127.0.0.1:"), HasSubstr("server 1   n2, 127.0.0.2:"),
-                                   HasSubstr("server 2   n3, 127.0.0.3:"), Not(HasSubstr("server 3   "))));
+    EXPECT_THAT(output(job),
+                AllOf(HasSubstr("server 0   n1, 127.0.0.1:"), HasSubstr("server 1   n2, 127.0.0.2:"),
+                      HasSubstr("server 2   n3, 127.0.0.3:"), Not(HasSubstr("server 3   "))));
 }
 
 TEST_F(Slurm, EveryTaskOfANodeIsAServerWithTheCoresOfTheTask) {
-    const std::string job =
-        submit({"--nodes=2", "--ntasks-per-node=2", "--cpus-per-task=2"}, kFrames + Arguments{"--out", "out"});
+    const std::string job = submit({"--nodes=2", "--ntasks-per-node=2", "--cpus-per-task=2"},
+                                   kFrames + Arguments{"--out", "out"});
     expect_exact(job, kFrames);
     EXPECT_THAT(output(job), AllOf(HasSubstr("server 1   n1, "), HasSubstr("server 3   n2, ")));
-    EXPECT_THAT(output(job, "-servers.log"), AllOf(HasSubstr("0: node n1, 2 cores"), HasSubstr("3: node n2, 2 cores")));
+    EXPECT_THAT(output(job, "-servers.log"),
+                AllOf(HasSubstr("0: node n1, 2 cores"), HasSubstr("3: node n2, 2 cores")));
 }
 
 TEST_F(Slurm, TasksThatAskForNoCoresShareTheirNode) {
     const std::string job =
         submit({"--nodes=2", "--ntasks=3", "--exclusive"}, kFrames + Arguments{"--out", "out"});
     expect_exact(job, kFrames);
-    EXPECT_THAT(output(job, "-servers.log"), AllOf(HasSubstr("0: node n1, 2 cores"), HasSubstr("1: node n1, 2 cores"),
-                                                   HasSubstr("2: node n2, 4 cores")));
+    EXPECT_THAT(output(job, "-servers.log"),
+                AllOf(HasSubstr("0: node n1, 2 cores"), HasSubstr("1: node n1, 2 cores"),
+                      HasSubstr("2: node n2, 4 cores")));
 }
 
 TEST_F(Slurm, AModelFileIsFoundFromTheFolderOfSubmission) {
@@ -154,10 +158,12 @@ TEST_F(Slurm, WhatCannotBeDoneFailsTheJobWithOneClearLine) {
     EXPECT_EQ(cluster_->end_of(bad_flag), "FAILED 2:0");
     EXPECT_THAT(output(bad_flag), HasSubstr("--nosuch"));
     EXPECT_EQ(cluster_->end_of(no_programs), "FAILED 1:0");
-    EXPECT_THAT(output(no_programs), testing::ContainsRegex("^swath.sbatch: no /nosuch/swath-client on n[1-3]: "));
+    EXPECT_THAT(output(no_programs),
+                testing::ContainsRegex("^swath.sbatch: no /nosuch/swath-client on n[1-3]: "));
     EXPECT_EQ(cluster_->end_of(no_server), "FAILED 1:0");
-    EXPECT_THAT(output(no_server), testing::ContainsRegex("^swath.sbatch: a server did not start: [01]: error: "
-                                                          "no .*/some/swath-server on n[1-3] "));
+    EXPECT_THAT(output(no_server),
+                testing::ContainsRegex("^swath.sbatch: a server did not start: [01]: error: "
+                                       "no .*/some/swath-server on n[1-3] "));
 }
 
 TEST_F(Slurm, TheLivePageIsReachedThroughATunnelWithItsToken) {
@@ -173,7 +179,8 @@ TEST_F(Slurm, TheLivePageIsReachedThroughATunnelWithItsToken) {
     ASSERT_TRUE(page.has_value()) << out;
     const std::string path = after("then open:  http://127.0.0.1:8080", '\n');
     const auto get = [&](const std::string& target) {
-        return http_exchange(*page, "GET " + target + " HTTP/1.1\r\nHost: 127.0.0.1:8080\r\nConnection: close\r\n\r\n")
+        return http_exchange(
+                   *page, "GET " + target + " HTTP/1.1\r\nHost: 127.0.0.1:8080\r\nConnection: close\r\n\r\n")
             .status;
     };
     EXPECT_EQ(get(path), 200) << path;
