@@ -13,6 +13,8 @@ namespace swath {
 namespace {
 
 constexpr Nanoseconds kNewcomersPatience = std::chrono::seconds(1);
+// A name or list may go on naming a server that is about to end.
+constexpr Nanoseconds kAfterLeaving = std::chrono::seconds(2);
 
 }  // namespace
 
@@ -105,6 +107,10 @@ void Machines::find(const Address& address, bool first) {
     if (over_) return;
     for (const auto& [id, server] : servers_)
         if (server.address == address) return;
+    if (const auto left = left_.find(to_string(address)); left != left_.end()) {
+        if (clock_.now() - left->second < kAfterLeaving) return;
+        left_.erase(left);
+    }
     if (roster_.full()) {
         const std::string why = fmt::format("{} servers take part, there may be no more", kMaxServers);
         if (std::exchange(warned_[to_string(address)], why) != why)
@@ -297,8 +303,10 @@ Status Machines::link() {
         return !entry.second.first || entry.second.ready;
     });
     if (!display_ready_ || (!started_ && !all_ready)) return {};
+    // With a name for the servers everybody is told addresses, as this machine resolves them.
+    const bool resolved = job_.servers.kind == ServerSource::Kind::kName;
     for (const Roster::Link& link : roster_.link()) {
-        Connect connect{to_string(job_.display), {}};
+        Connect connect{resolved ? display_->peer() : to_string(job_.display), {}};
         for (const ServerId peer : link.peers)
             connect.peers.push_back({peer, to_string(servers_.at(peer).address)});
         if (const Status status = tell(link.server, connect); !status)
@@ -326,6 +334,7 @@ void Machines::release() {
     for (const ServerId id : roster_.released()) {
         const Server& server = servers_.at(id);
         if (server.connection) server.connection->finish();
+        left_[to_string(server.address)] = clock_.now();
         servers_.erase(id);
         roster_.remove(id);
     }

@@ -127,6 +127,7 @@ class Machines : public std::enable_shared_from_this<Machines> {
     Roster roster_;
     std::map<ServerId, Server> servers_;
     std::vector<ServerId> members_;
+    std::map<std::string, Nanoseconds> left_;    // by address: when it was let go
     std::map<std::string, std::string> warned_;  // by address: the newest warning, which is not repeated
     std::shared_ptr<Connection> display_;
     bool display_ready_ = false;

@@ -130,6 +130,15 @@ TEST_F(MachinesTest, StartWhenTheDisplayAndTheFirstServersAreLinked) {
     EXPECT_EQ(machines_->renderer(server_id(1)), "a renderer");
 }
 
+TEST_F(MachinesTest, OfANameAreToldAddresses) {
+    const std::uint16_t port = one_.address().port;
+    start({fmt::format("dns:localhost:{}", port)});
+    display();
+    const auto server = ready(one_, 0);
+    EXPECT_EQ(server->expect<Connect>(), (Connect{address(display_door_), {}}));
+    EXPECT_EQ(machines_->address(server_id(0)), (Address{"127.0.0.1", port}));
+}
+
 TEST_F(MachinesTest, SendTheModelPartByPart) {
     start({address(one_)});
     Peer server(loop_, one_.next(), hello_of(Role::kServer));
@@ -170,7 +179,7 @@ TEST_F(MachinesTest, TakeNewcomersAndLetThemGo) {
     machines_->on_over({server_id(0), server_id(1)});
     EXPECT_EQ(first_->ending(), "");  // a Bye
 
-    // It is back at once while it is on the list.
+    // It is back soon while it is on the list.
     const auto back = member(one_, 0);
     EXPECT_EQ(said(), "2 members");
     list({address(two_)});  // struck off
