@@ -181,12 +181,23 @@ void Machines::on_closed(ServerId id, const std::string& why) {
     drop(id, why);
 }
 
+bool Machines::needed(ServerId id) const {
+    if (asked_.contains(id)) return true;
+    return started_ ? roster_.is_member(id) || roster_.has_open_frames(id)
+                    : servers_.at(id).first && job_.servers.kind == ServerSource::Kind::kList;
+}
+
+// A server, or the display, says so.
+void Machines::on_lost(const Lost& lost, const std::string& said_by) {
+    const auto found = servers_.find(lost.server);
+    if (found == servers_.end()) return;  // it has been let go
+    drop(lost.server, fmt::format("{} (says {})", lost.why, said_by));
+}
+
 // It is gone. Does the run need it?
 void Machines::drop(ServerId id, const std::string& why) {
     const Server server = servers_.at(id);
-    const bool needed = started_ ? roster_.is_member(id) || roster_.has_open_frames(id)
-                                 : server.first && job_.servers.kind == ServerSource::Kind::kList;
-    if (needed || asked_.contains(id)) return lose(server.who, why);
+    if (needed(id)) return lose(server.who, why);
     if (server.connection) server.connection->close();
     servers_.erase(id);
     roster_.remove(id);
@@ -219,6 +230,10 @@ Status Machines::on_hello(ServerId id, const Hello& hello) {
 
 Status Machines::on_display_message(Message&& message, Buffer&& body) {
     if (over_) return {};
+    if (const auto* lost = std::get_if<Lost>(&message)) {
+        on_lost(*lost, "the display");
+        return {};
+    }
     const auto* ready = std::get_if<Ready>(&message);
     if (ready == nullptr) return handlers_.on_display(std::move(message), std::move(body));
     if (std::exchange(display_ready_, true)) return fail("Ready came twice");
@@ -237,6 +252,12 @@ Status Machines::on_message(ServerId id, Message&& message, Buffer&& body) {
         if (started_) spdlog::info("{}: takes part", servers_.at(id).who);
         warned_.erase(to_string(servers_.at(id).address));
         return advance();
+    }
+    if (const auto* lost = std::get_if<Lost>(&message)) {
+        // A newcomer that lacks a link cannot take part.
+        if (!needed(id)) return fail("lost server {}: {}", index(lost->server), lost->why);
+        on_lost(*lost, servers_.at(id).who);
+        return {};
     }
     if (std::holds_alternative<Leave>(message)) {
         spdlog::info("{}: leaves", servers_.at(id).who);

@@ -114,6 +114,8 @@ class Machines : public std::enable_shared_from_this<Machines> {
     void release();
     void on_closed(ServerId id, const std::string& why);
     void drop(ServerId id, const std::string& why);
+    bool needed(ServerId id) const;
+    void on_lost(const Lost& lost, const std::string& said_by);
     void lose(const std::string& who, const std::string& why);
 
     boost::asio::io_context& io_;

@@ -123,6 +123,10 @@ struct Encoder {
     }
     void operator()(const Connected&) const { head.mutable_connected(); }
     void operator()(const Leave&) const { head.mutable_leave(); }
+    void operator()(const Lost& m) const {
+        head.mutable_lost()->set_server(static_cast<std::uint32_t>(m.server));
+        head.mutable_lost()->set_why(m.why.substr(0, kMaxNameBytes));
+    }
     void operator()(const RenderFrame& m) const {
         pb::RenderFrame& out = *head.mutable_render_frame();
         out.set_frame(m.frame);
@@ -488,6 +492,12 @@ Result<Message> get_message(const pb::Head& head) {
             return get_note(head.note());
         case pb::Head::kLeave:
             return Leave{};
+        case pb::Head::kLost: {
+            const auto server = get_server(head.lost().server(), "server");
+            if (!server) return tl::unexpected(server.error());
+            if (const auto s = check_text(head.lost().why(), "why"); !s) return tl::unexpected(s.error());
+            return Lost{*server, head.lost().why()};
+        }
         case pb::Head::KIND_NOT_SET:
             break;
     }
@@ -557,7 +567,7 @@ std::string_view name(const Message& message) {
         "Hello",       "Ping",       "Pong",         "ServerSetup",   "DisplaySetup", "NeedModel",
         "ModelPart",   "Ready",      "Connect",      "Connected",     "RenderFrame",  "AssembleFrame",
         "SwathPixels", "TilePixels", "ServerReport", "DisplayReport", "Failed",       "Bye",
-        "Reconfigure", "Audience",   "Wish",         "Note",          "Leave"};
+        "Reconfigure", "Audience",   "Wish",         "Note",          "Leave",        "Lost"};
     return kNames[message.index()];
 }
 

@@ -125,6 +125,12 @@ struct Connected {
 struct Leave {
     bool operator==(const Leave&) const = default;
 };
+// Server or display to client: the connection to that server has broken. What follows is the client's to say.
+struct Lost {
+    ServerId server{};
+    std::string why;
+    bool operator==(const Lost&) const = default;
+};
 
 // What goes to or comes from one server.
 struct Exchange {
@@ -224,7 +230,7 @@ struct Bye {
 using Message =
     std::variant<Hello, Ping, Pong, ServerSetup, DisplaySetup, NeedModel, ModelPart, Ready, Connect,
                  Connected, RenderFrame, AssembleFrame, SwathPixels, TilePixels, ServerReport, DisplayReport,
-                 Failed, Bye, Reconfigure, Audience, Wish, Note, Leave>;
+                 Failed, Bye, Reconfigure, Audience, Wish, Note, Leave, Lost>;
 std::string_view name(const Message& message);
 
 }  // namespace swath

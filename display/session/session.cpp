@@ -37,13 +37,11 @@ bool DisplaySession::on_closed(const std::shared_ptr<Connection>& connection, co
     if (connection == client_) return true;
     for (auto server = servers_.begin(); server != servers_.end(); ++server) {
         if (server->second != connection) continue;
-        const std::size_t id = index(server->first);
+        const ServerId id = server->first;
         servers_.erase(server);
         if (why) break;  // a Bye: it has left, or the client has ended the run and it heard of that first
-        const std::string line =
-            fmt::format("lost server {} ({}): {}", id, connection->peer(), why.error().message);
-        spdlog::warn("{}; ending the session", line);
-        give_up(Error{line});
+        spdlog::warn("lost server {} ({}): {}", index(id), connection->peer(), why.error().message);
+        if (!stopped_) tell(Lost{id, why.error().message});
         break;
     }
     return false;

@@ -53,22 +53,21 @@ void ServerSession::tell_client(const Message& message) {
 
 bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
     if (connection == client_) return true;
-    std::string who;
     if (connection == display_) {
-        who = "the display at " + connection->peer();
         display_.reset();
+        if (!why)
+            give_up({fmt::format("lost the display at {}: {}", connection->peer(), why.error().message)});
     }
     for (auto peer = peers_.begin(); peer != peers_.end(); ++peer) {
         if (peer->second != connection) continue;
-        who = fmt::format("server {} at {}", index(peer->first), connection->peer());
+        const ServerId id = peer->first;
         peers_.erase(peer);
+        // A Bye comes when a peer has left, or when the client has ended the run and it heard of that before
+        // us.
+        if (why || !draw_thread_) break;
+        spdlog::warn("lost server {} ({}): {}", index(id), connection->peer(), why.error().message);
+        tell_client(Lost{id, why.error().message});
         break;
-    }
-    // A Bye comes when a peer has left, or when the client has ended the run and it heard of that before us.
-    if (!who.empty() && !why) {
-        const std::string line = fmt::format("lost {}: {}", who, why.error().message);
-        spdlog::warn("{}; ending the session", line);
-        give_up(Error{line});
     }
     return false;
 }

@@ -249,6 +249,41 @@ TEST_F(MachinesTest, SayWhoOfTheRunIsLost) {
     EXPECT_EQ(said(), "lost server 0 at " + address(one_) + ": closed the connection");
 }
 
+TEST_F(MachinesTest, SayWhoIsLostWhoeverHeardOfItFirst) {
+    run();
+    list({address(one_), address(two_)});
+    const auto second = member(two_, 1);
+    EXPECT_EQ(said(), "2 members");
+    second->send(Lost{server_id(7), "it has been let go long ago"});
+    second->send(ServerReport{});
+    EXPECT_EQ(said(), "ServerReport from 1");
+    second->send(Lost{server_id(0), "reset"});
+    EXPECT_EQ(said(),
+              "lost server 0 at " + address(one_) + ": reset (says server 1 at " + address(two_) + ")");
+}
+
+TEST_F(MachinesTest, SayWhoIsLostAsTheDisplaySees) {
+    run();
+    display_->send(Lost{server_id(0), "garbled tile"});
+    EXPECT_EQ(said(), "lost server 0 at " + address(one_) + ": garbled tile (says the display)");
+}
+
+TEST_F(MachinesTest, GoOnWithoutANewcomerThatMembersLose) {
+    run();
+    list({address(one_), address(two_)});
+    const auto newcomer = ready(two_, 1);
+    newcomer->expect<Connect>();
+    first_->send(Lost{server_id(1), "reset"});
+    newcomer->ending();
+    const auto again = ready(two_, 1);
+    again->expect<Connect>();
+    again->send(Lost{server_id(0), "reset"});  // it lacks a link itself
+    EXPECT_EQ(again->ending(), "lost server 0: reset");
+    member(two_, 1);
+    EXPECT_EQ(said(), "2 members");
+    EXPECT_THAT(log_, IsEmpty());
+}
+
 TEST_F(MachinesTest, SayThatTheDisplayIsLost) {
     run();
     display_->connection->fail_with({"it was stopped"});

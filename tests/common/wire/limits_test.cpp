@@ -121,6 +121,14 @@ TEST(WireLimit, OfConnect) {
         in + "peers: 1025, the limit is 1024");
 }
 
+TEST(WireLimit, OfLost) {
+    const Table<pb::Lost> lost(Lost{server_id(3), "it fell over"}, &pb::Head::mutable_lost);
+    lost.expect([](auto& m) { m.set_server(1024); },
+                "a garbled lost message: server: server 1024, the limit is 1024");
+    lost.expect([](auto& m) { m.set_why(std::string(5000, 'x')); },
+                "a garbled lost message: why: 5000 bytes, the limit is 4096");
+}
+
 TEST(WireLimit, OfReconfigure) {
     const Table<pb::Reconfigure> drawing(Reconfigure{}, &pb::Head::mutable_reconfigure);
     const std::string in = "a garbled reconfigure message: ";

@@ -159,6 +159,7 @@ std::vector<Message> sample_messages(std::uint32_t seed) {
     all.emplace_back(Wish{make.u32()});
     all.emplace_back(make.note());
     all.emplace_back(Leave{});
+    all.emplace_back(Lost{make.server(), make.text()});
     return all;
 }
 
