@@ -39,7 +39,7 @@ class Machines : public std::enable_shared_from_this<Machines> {
         Nanoseconds patience = std::chrono::seconds(5);  // until a run has started
         WireTiming timing;
     };
-    // The last three may not be called any more once on_lost or stop() was.
+    // Nothing is called any more after on_lost or stop().
     struct Handlers {
         // Everybody is there. The address of the display's page, if it has one.
         std::function<Status(const std::string& page)> on_started;
@@ -85,7 +85,6 @@ class Machines : public std::enable_shared_from_this<Machines> {
         std::string renderer;
         std::shared_ptr<Connection> connection;
         bool first = false;  // the run starts with it
-        bool set_up = false;
         bool ready = false;  // for `drawing`
         Drawing drawing;     // that it was told
     };

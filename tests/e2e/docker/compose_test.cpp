@@ -167,7 +167,7 @@ TEST_F(Compose, EveryProgramEndsAtOnceAndNothingIsLeft) {
     EXPECT_THAT(cluster_->left(), IsEmpty());
 }
 
-// A model from the folder that SWATH_MODELS names is read by client and servers alike; settings by a file.
+// The client ends with its display, and compose starts it again.
 TEST_F(Compose, DisplayThatIsStartedAnewGetsItsClientBack) {
     up(2);
     {

@@ -67,7 +67,6 @@ class Cluster {
 
     // "127.0.0.1:PORT", where its page is published.
     const std::string& view() const { return view_; }
-    std::string network() const { return project_ + "_default"; }
 
   private:
     std::string project_;
