@@ -13,6 +13,9 @@ find_package(assimp REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
+# SAH octrees are built with Thrust, on TBB's threads.
+find_package(TBB REQUIRED)
+find_path(SWATH_THRUST_INCLUDE thrust/version.h REQUIRED)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 if(SWATH_TESTS)
@@ -23,3 +26,21 @@ endif()
 
 # tl::expected is one header.
 find_path(SWATH_EXPECTED_INCLUDE tl/expected.hpp REQUIRED)
+
+# And on CUDA devices, where nvcc is there: with the Thrust that comes with it.
+set(SWATH_CUDA AUTO CACHE STRING "Build SAH octrees on CUDA devices, too: ON, OFF, or AUTO (where there is nvcc)")
+set(SWATH_HAS_CUDA OFF)
+if(SWATH_CUDA STREQUAL "ON" OR (SWATH_CUDA STREQUAL "AUTO" AND NOT SWATH_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU"))
+  include(CheckLanguage)
+  check_language(CUDA)
+  if(CMAKE_CUDA_COMPILER)
+    if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+      set(CMAKE_CUDA_ARCHITECTURES 75-virtual)  # compiled by the driver for whatever is there, at the first use
+    endif()
+    enable_language(CUDA)
+    find_package(CUDAToolkit REQUIRED)
+    set(SWATH_HAS_CUDA ON)
+  elseif(SWATH_CUDA STREQUAL "ON")
+    message(FATAL_ERROR "SWATH_CUDA is ON, but there is no nvcc")
+  endif()
+endif()

@@ -1,7 +1,7 @@
 #include "common/cull/wide/hierarchy_kernel.h"
 
+#include "common/base/lanes/lanes.h"
 #include "common/cull/wide/lane_steps.h"
-#include "common/cull/wide/lanes.h"
 
 namespace swath::SWATH_KERNEL {
 namespace {

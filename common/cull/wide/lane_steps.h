@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/base/lanes/lanes.h"
 #include "common/cull/wide/kernel_planes.h"
-#include "common/cull/wide/lanes.h"
 
 namespace swath::SWATH_KERNEL {
 namespace {

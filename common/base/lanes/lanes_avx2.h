@@ -29,6 +29,12 @@ inline __m256i from_bits(std::uint32_t eight) {
 inline Floats load(const float* from) { return {_mm256_loadu_ps(from), _mm256_loadu_ps(from + 8)}; }
 inline Floats all(float value) { return {_mm256_set1_ps(value), _mm256_set1_ps(value)}; }
 inline Floats add(Floats a, Floats b) { return {_mm256_add_ps(a.low, b.low), _mm256_add_ps(a.high, b.high)}; }
+inline Floats subtract(Floats a, Floats b) {
+    return {_mm256_sub_ps(a.low, b.low), _mm256_sub_ps(a.high, b.high)};
+}
+inline Floats divide(Floats a, Floats b) {
+    return {_mm256_div_ps(a.low, b.low), _mm256_div_ps(a.high, b.high)};
+}
 inline Floats multiply(Floats a, Floats b) {
     return {_mm256_mul_ps(a.low, b.low), _mm256_mul_ps(a.high, b.high)};
 }
@@ -60,6 +66,19 @@ inline std::uint32_t below_zero(Floats a) {
 inline std::uint32_t at_least_zero(Floats a) {
     const __m256 zero = _mm256_setzero_ps();
     return sign_bits(_mm256_cmp_ps(a.low, zero, _CMP_GE_OQ), _mm256_cmp_ps(a.high, zero, _CMP_GE_OQ));
+}
+inline std::uint32_t less(Floats a, Floats b) {
+    return sign_bits(_mm256_cmp_ps(a.low, b.low, _CMP_LT_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_LT_OQ));
+}
+inline std::uint32_t at_most(Floats a, Floats b) {
+    return sign_bits(_mm256_cmp_ps(a.low, b.low, _CMP_LE_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_LE_OQ));
+}
+inline std::uint32_t equal(Floats a, Floats b) {
+    return sign_bits(_mm256_cmp_ps(a.low, b.low, _CMP_EQ_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_EQ_OQ));
+}
+inline Floats absolute(Floats a) {
+    const __m256 sign = _mm256_set1_ps(-0.0f);
+    return {_mm256_andnot_ps(sign, a.low), _mm256_andnot_ps(sign, a.high)};
 }
 inline Floats where(std::uint32_t mask, Floats then, Floats otherwise) {
     return {_mm256_blendv_ps(otherwise.low, then.low, _mm256_castsi256_ps(from_bits(mask & 0xff))),
@@ -101,6 +120,18 @@ inline Words set_bits_where(Words a, std::uint32_t mask, std::uint32_t bits) {
     const __m256i set = _mm256_set1_epi32(static_cast<int>(bits));
     return {_mm256_or_si256(a.low, _mm256_and_si256(from_bits(mask & 0xff), set)),
             _mm256_or_si256(a.high, _mm256_and_si256(from_bits(mask >> 8), set))};
+}
+inline std::uint32_t less(Words a, Words b) {
+    // There is a signed comparison only.
+    const __m256i half = _mm256_set1_epi32(static_cast<int>(0x80000000u));
+    const auto of = [&](__m256i x, __m256i y) {
+        return _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_xor_si256(y, half), _mm256_xor_si256(x, half)));
+    };
+    return sign_bits(of(a.low, b.low), of(a.high, b.high));
+}
+inline Words where(std::uint32_t mask, Words then, Words otherwise) {
+    return {_mm256_blendv_epi8(otherwise.low, then.low, from_bits(mask & 0xff)),
+            _mm256_blendv_epi8(otherwise.high, then.high, from_bits(mask >> 8))};
 }
 inline std::uint32_t non_zero(Words a) {
     const __m256i zero = _mm256_setzero_si256();

@@ -4,17 +4,21 @@
 // in cmake/compile_options.cmake): everything is in an unnamed namespace, so that no other object file can
 // get these copies.
 //
-//   Floats: load, all, add, multiply, fused (a x + t, rounded once), lower_of, higher_of (of numbers that are
-//           not NaN), lowest, highest (over the lanes), below_zero, at_least_zero (NaN is neither)
-//   Words:  load, store, all, add, both (and), shift_left, shift_right, set_bits_where, non_zero, to_floats
+//   Floats: load, store, all, add, subtract, multiply, divide, fused (a x + t, rounded once), absolute,
+//   lower_of,
+//           higher_of (of numbers that are not NaN), lowest, highest (over the lanes), where; as masks
+//           below_zero, at_least_zero, less, at_most, equal (for NaN none holds)
+//   Words:  load, store, all, add, both (and), shift_left, shift_right, set_bits_where, where, to_floats; as
+//   masks
+//           non_zero, less
 //   packed: writes the lanes of a mask side by side and returns the place after them. It may scribble over
 //           the whole of the next 16 places.
 #include <cstdint>
 
 #if defined(SWATH_KERNEL_avx512)
-#include "common/cull/wide/lanes_avx512.h"
+#include "common/base/lanes/lanes_avx512.h"
 #elif defined(SWATH_KERNEL_avx2)
-#include "common/cull/wide/lanes_avx2.h"
+#include "common/base/lanes/lanes_avx2.h"
 #else
-#include "common/cull/wide/lanes_portable.h"
+#include "common/base/lanes/lanes_portable.h"
 #endif

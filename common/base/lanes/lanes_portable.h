@@ -41,6 +41,12 @@ inline Floats all(float value) {
 inline Floats add(const Floats& a, const Floats& b) {
     return make_floats([&](int i) { return a.v[i] + b.v[i]; });
 }
+inline Floats subtract(const Floats& a, const Floats& b) {
+    return make_floats([&](int i) { return a.v[i] - b.v[i]; });
+}
+inline Floats divide(const Floats& a, const Floats& b) {
+    return make_floats([&](int i) { return a.v[i] / b.v[i]; });
+}
 inline Floats multiply(const Floats& a, const Floats& b) {
     return make_floats([&](int i) { return a.v[i] * b.v[i]; });
 }
@@ -68,6 +74,18 @@ inline std::uint32_t below_zero(const Floats& a) {
 }
 inline std::uint32_t at_least_zero(const Floats& a) {
     return make_mask([&](int i) { return a.v[i] >= 0; });
+}
+inline std::uint32_t less(const Floats& a, const Floats& b) {
+    return make_mask([&](int i) { return a.v[i] < b.v[i]; });
+}
+inline std::uint32_t at_most(const Floats& a, const Floats& b) {
+    return make_mask([&](int i) { return a.v[i] <= b.v[i]; });
+}
+inline std::uint32_t equal(const Floats& a, const Floats& b) {
+    return make_mask([&](int i) { return a.v[i] == b.v[i]; });
+}
+inline Floats absolute(const Floats& a) {
+    return make_floats([&](int i) { return __builtin_fabsf(a.v[i]); });
 }
 inline Floats where(std::uint32_t mask, const Floats& then, const Floats& otherwise) {
     return make_floats([&](int i) { return (mask >> i & 1) != 0 ? then.v[i] : otherwise.v[i]; });
@@ -103,6 +121,12 @@ inline Words shift_right(const Words& a) {
 }
 inline Words set_bits_where(const Words& a, std::uint32_t mask, std::uint32_t bits) {
     return make_words([&](int i) { return a.v[i] | ((mask >> i & 1) != 0 ? bits : 0); });
+}
+inline std::uint32_t less(const Words& a, const Words& b) {
+    return make_mask([&](int i) { return a.v[i] < b.v[i]; });
+}
+inline Words where(std::uint32_t mask, const Words& then, const Words& otherwise) {
+    return make_words([&](int i) { return (mask >> i & 1) != 0 ? then.v[i] : otherwise.v[i]; });
 }
 inline std::uint32_t non_zero(const Words& a) {
     return make_mask([&](int i) { return a.v[i] != 0; });

@@ -26,6 +26,8 @@ struct Words {
 inline Floats load(const float* from) { return {_mm512_loadu_ps(from)}; }
 inline Floats all(float value) { return {_mm512_set1_ps(value)}; }
 inline Floats add(Floats a, Floats b) { return {_mm512_add_ps(a.v, b.v)}; }
+inline Floats subtract(Floats a, Floats b) { return {_mm512_sub_ps(a.v, b.v)}; }
+inline Floats divide(Floats a, Floats b) { return {_mm512_div_ps(a.v, b.v)}; }
 inline Floats multiply(Floats a, Floats b) { return {_mm512_mul_ps(a.v, b.v)}; }
 inline Floats fused(Floats a, Floats x, Floats t) { return {_mm512_fmadd_ps(a.v, x.v, t.v)}; }
 inline Floats lower_of(Floats a, Floats b) { return {_mm512_min_ps(a.v, b.v)}; }
@@ -36,6 +38,10 @@ inline std::uint32_t below_zero(Floats a) { return _mm512_cmp_ps_mask(a.v, _mm51
 inline std::uint32_t at_least_zero(Floats a) {
     return _mm512_cmp_ps_mask(a.v, _mm512_setzero_ps(), _CMP_GE_OQ);
 }
+inline std::uint32_t less(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }
+inline std::uint32_t at_most(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ); }
+inline std::uint32_t equal(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ); }
+inline Floats absolute(Floats a) { return {_mm512_abs_ps(a.v)}; }
 inline Floats where(std::uint32_t mask, Floats then, Floats otherwise) {
     return {_mm512_mask_mov_ps(otherwise.v, static_cast<__mmask16>(mask), then.v)};
 }
@@ -57,6 +63,10 @@ inline Words shift_right(Words a) {
 inline Words set_bits_where(Words a, std::uint32_t mask, std::uint32_t bits) {
     return {_mm512_mask_or_epi32(a.v, static_cast<__mmask16>(mask), a.v,
                                  _mm512_set1_epi32(static_cast<int>(bits)))};
+}
+inline std::uint32_t less(Words a, Words b) { return _mm512_cmplt_epu32_mask(a.v, b.v); }
+inline Words where(std::uint32_t mask, Words then, Words otherwise) {
+    return {_mm512_mask_blend_epi32(static_cast<__mmask16>(mask), otherwise.v, then.v)};
 }
 inline std::uint32_t non_zero(Words a) { return _mm512_test_epi32_mask(a.v, a.v); }
 inline Floats to_floats(Words a) { return {_mm512_cvtepi32_ps(a.v)}; }

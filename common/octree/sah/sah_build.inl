@@ -1,0 +1,648 @@
+// The SAH octree builder, for whichever device system Thrust is compiled for: TBB or CUDA. Included by one
+// source of each, which says what System is.
+#include <thrust/copy.h>
+#include <thrust/device_malloc_allocator.h>
+#include <thrust/device_vector.h>
+#include <thrust/execution_policy.h>
+#include <thrust/for_each.h>
+#include <thrust/iterator/counting_iterator.h>
+#include <thrust/scan.h>
+#include <thrust/transform_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/octree/sah/sah_build.h"
+#include "common/octree/sah/sah_subtree.h"
+
+namespace swath {
+namespace {
+
+// Device memory that is not initialised: most of it is written before it is read, and some never.
+template <class T>
+struct UninitialisedAllocator : thrust::device_malloc_allocator<T> {
+    using Base = thrust::device_malloc_allocator<T>;
+    template <class U>
+    struct rebind {
+        using other = UninitialisedAllocator<U>;
+    };
+    UninitialisedAllocator() = default;
+    template <class U>
+    SWATH_BOTH UninitialisedAllocator(const UninitialisedAllocator<U>& other) : Base(other) {}
+    SWATH_BOTH void construct(T*) {}
+};
+template <class T>
+using Array = thrust::device_vector<T, UninitialisedAllocator<T>>;
+template <class T>
+T* raw(Array<T>& array) {
+    return thrust::raw_pointer_cast(array.data());
+}
+// As many as that, whatever they hold. Never shrinks: the next build has them already.
+template <class T>
+T* at_least(Array<T>& array, std::size_t size) {
+    if (array.size() < size) {
+        array.clear();
+        array.shrink_to_fit();
+        array.resize(size);
+    }
+    return raw(array);
+}
+template <class T>
+const T* upload(Array<T>& array, const std::vector<T>& values) {
+    at_least(array, values.size());
+    thrust::copy(values.begin(), values.end(), array.begin());
+    return raw(array);
+}
+
+template <class Work>
+void for_all(std::size_t count, const Work& work) {
+    thrust::for_each(thrust::device, thrust::counting_iterator<std::uint32_t>(0),
+                     thrust::counting_iterator<std::uint32_t>(static_cast<std::uint32_t>(count)), work);
+}
+
+// An octree node that is to be cut: its references, and where it is in the tree.
+struct Open {
+    SahBox box;
+    std::uint32_t first;
+    std::uint32_t count;
+    std::uint32_t allowed;  // triangles in its leaves
+    std::uint32_t node;
+    std::uint32_t depth;
+    std::uint32_t first_chunk;
+    std::uint32_t chunks;
+};
+// Some references of one node, which one thread works on.
+struct Chunk {
+    std::uint32_t open;
+    std::uint32_t first;
+    std::uint32_t count;
+};
+// A child that one thread finishes, and where what it makes is built, among that of all.
+struct Subtree {
+    Open at;
+    std::size_t first_node;
+    std::size_t first_triangle;
+};
+struct SubtreeSizes {
+    std::uint32_t nodes;
+    std::uint32_t triangles;
+};
+
+struct MakeReferences {
+    const unsigned char* positions;
+    std::size_t stride;
+    std::uint32_t position_count;
+    const std::uint32_t* indices;
+    SahReference* references;
+    SWATH_BOTH void operator()(std::uint32_t triangle) const {
+        const std::uint32_t* const corner = indices + 3 * std::size_t{triangle};
+        SahReference r;
+        if (corner[0] < position_count && corner[1] < position_count && corner[2] < position_count) {
+            const float* const a = reinterpret_cast<const float*>(positions + stride * corner[0]);
+            const float* const b = reinterpret_cast<const float*>(positions + stride * corner[1]);
+            const float* const c = reinterpret_cast<const float*>(positions + stride * corner[2]);
+            float sum = 0.0f;  // not a number if one of them is none
+            for (int axis = 0; axis < 3; ++axis) {
+                r.low[axis] = lower(lower(a[axis], b[axis]), c[axis]);
+                r.high[axis] = higher(higher(a[axis], b[axis]), c[axis]);
+                sum += (a[axis] + b[axis] + c[axis]) * 0.0f;
+            }
+            if (sum != 0.0f) r.low[0] = r.high[0] = -kHuge;
+        } else {
+            r.low[0] = r.high[0] = -kHuge;
+        }
+        r.triangle = triangle;
+        r.unused = 0;
+        references[triangle] = r;
+    }
+};
+struct BoxOf {
+    SWATH_BOTH SahBox operator()(const SahReference& r) const {
+        return {{r.low[0], r.low[1], r.low[2]}, {r.high[0], r.high[1], r.high[2]}};
+    }
+};
+struct Bounding {
+    SWATH_BOTH SahBox operator()(const SahBox& a, const SahBox& b) const {
+        SahBox box;
+        for (int axis = 0; axis < 3; ++axis) {
+            box.low[axis] = lower(a.low[axis], b.low[axis]);
+            box.high[axis] = higher(a.high[axis], b.high[axis]);
+        }
+        return box;
+    }
+};
+
+SWATH_BOTH SahBins bins_of_chunk(std::uint32_t* bins, std::uint32_t chunk, std::uint32_t count,
+                                 std::uint32_t max_bins) {
+    return bins_at(bins + kBinWords * (std::size_t{max_bins} + 1) * chunk, count);
+}
+
+struct BinChunk {
+    const Open* opens;
+    const Chunk* chunks;
+    const SahReference* references;
+    std::uint32_t* bins;
+    SahSettings settings;
+    SWATH_BOTH void operator()(std::uint32_t chunk) const {
+        const Chunk c = chunks[chunk];
+        const Open& open = opens[c.open];
+        count_bins(references + c.first, c.count, open.box,
+                   bins_of_chunk(bins, chunk, bins_for(open.count, settings), settings.max_bins));
+    }
+};
+
+// For one axis of a node: adds its chunks' bins up, in those of the first chunk, and finds the sample.
+struct FindSample {
+    const Open* opens;
+    std::uint32_t* bins;
+    SahSample* samples;  // three a node
+    SahSettings settings;
+    SWATH_BOTH void operator()(std::uint32_t work) const {
+        const Open& open = opens[work / 3];
+        const int axis = static_cast<int>(work % 3);
+        const std::uint32_t count = bins_for(open.count, settings);
+        const SahBins sum = bins_of_chunk(bins, open.first_chunk, count, settings.max_bins);
+        for (std::uint32_t chunk = 1; chunk < open.chunks; ++chunk) {
+            const SahBins more = bins_of_chunk(bins, open.first_chunk + chunk, count, settings.max_bins);
+            for (std::uint32_t bin = 0; bin < count; ++bin) {
+                sum.starts[axis][bin] += more.starts[axis][bin];
+                sum.ends[axis][bin] += more.ends[axis][bin];
+            }
+        }
+        samples[work] = best_sample(sum.starts[axis], sum.ends[axis], count, open.count, open.box,
+                                    SahShape(open.box), axis);
+    }
+};
+
+struct FindNearest {
+    const Chunk* chunks;
+    const SahReference* references;
+    const SahSample* samples;
+    SahNearest* nears;  // of each chunk
+    bool refine;
+    SWATH_BOTH void operator()(std::uint32_t chunk) const {
+        const Chunk c = chunks[chunk];
+        nears[chunk] = refine ? nearest(references + c.first, c.count, samples + 3 * std::size_t{c.open})
+                              : nothing_near();
+    }
+};
+
+struct FindCut {
+    const Open* opens;
+    const SahSample* samples;
+    const SahNearest* nears;
+    SahCut* cuts;
+    SahSettings settings;
+    SWATH_BOTH void operator()(std::uint32_t i) const {
+        const Open& open = opens[i];
+        SahNearest near = nears[open.first_chunk];
+        for (std::uint32_t chunk = 1; chunk < open.chunks; ++chunk)
+            add_nearest(near, nears[open.first_chunk + chunk]);
+        for (int axis = 0; axis < 3; ++axis)
+            cuts[i].planes[axis] = best_plane(samples[3 * std::size_t{i} + static_cast<std::size_t>(axis)],
+                                              near, open.count, open.box, SahShape(open.box), axis, settings);
+        if (open.depth >= kMaxSahDepth)
+            for (SahPlane& plane : cuts[i].planes) plane.any = false;
+        drop_poor(cuts[i], open.count, settings);
+    }
+};
+
+// Counts of a level are in the order of nodes, then children, then chunks.
+SWATH_BOTH std::size_t count_at(const Open& open, std::uint32_t child, std::uint32_t chunk) {
+    return std::size_t{8} * open.first_chunk + std::size_t{child} * open.chunks + (chunk - open.first_chunk);
+}
+
+struct CountChildren {
+    const Open* opens;
+    const Chunk* chunks;
+    const SahCut* cuts;
+    const SahReference* references;
+    unsigned char* children;  // of each reference
+    std::uint32_t* counts;
+    SWATH_BOTH void operator()(std::uint32_t chunk) const {
+        const Chunk c = chunks[chunk];
+        float positions[3];
+        positions_of(cuts[c.open], positions);
+        std::uint32_t of[8] = {};
+        for (std::uint32_t i = c.first; i < c.first + c.count; ++i) {
+            std::uint32_t to = children_of(references[i], positions);
+            children[i] = static_cast<unsigned char>(to);
+            for (; to != 0; to &= to - 1) ++of[lowest_bit(to)];
+        }
+        for (std::uint32_t child = 0; child < 8; ++child)
+            counts[count_at(opens[c.open], child, chunk)] = of[child];
+    }
+};
+
+struct Scatter {
+    const Open* opens;
+    const Chunk* chunks;
+    const SahCut* cuts;
+    const SahReference* references;
+    const unsigned char* children;
+    const std::uint32_t* begins;
+    SahReference* parts;
+    SWATH_BOTH void operator()(std::uint32_t chunk) const {
+        const Chunk c = chunks[chunk];
+        float positions[3];
+        positions_of(cuts[c.open], positions);
+        std::uint32_t at[8];
+        for (std::uint32_t child = 0; child < 8; ++child)
+            at[child] = begins[count_at(opens[c.open], child, chunk)];
+        for (std::uint32_t i = c.first; i < c.first + c.count; ++i) {
+            const SahReference& r = references[i];
+            std::uint32_t to = children[i];
+            if ((to & (to - 1)) == 0) {
+                parts[at[lowest_bit(to)]++] = r;
+                continue;
+            }
+            for (; to != 0; to &= to - 1) {
+                const std::uint32_t child = lowest_bit(to);
+                SahReference& part = parts[at[child]++];
+                part = r;
+                clip_to_child(part, child, positions);
+            }
+        }
+    }
+};
+
+// Worker w of W builds every W-th subtree.
+struct BuildSubtrees {
+    const Subtree* subtrees;
+    std::uint32_t count;
+    std::uint32_t workers;
+    const SahReference* references;
+    SahReference* scratch;
+    std::uint32_t scratch_each;
+    std::uint32_t* bins;
+    std::uint32_t* nodes;  // 4 words each
+    std::uint32_t* triangles;
+    SubtreeSizes* sizes;
+    SahSettings settings;
+    SWATH_BOTH void operator()(std::uint32_t worker) const {
+        SahScratch mine{scratch + std::size_t{scratch_each} * worker, scratch_each,
+                        bins + kBinWords * (std::size_t{settings.max_bins} + 1) * worker};
+        for (std::uint32_t i = worker; i < count; i += workers) {
+            const Open& at = subtrees[i].at;
+            SahSubtreeOutput out{nodes + 4 * subtrees[i].first_node, triangles + subtrees[i].first_triangle,
+                                 0, 0};
+            if (at.count > settings.grain) {
+                // Nothing can be gained by cutting it.
+                out.nodes[0] = out.nodes[2] = out.nodes[3] = 0;
+                out.nodes[1] = out.triangle_count = at.count;
+                out.node_count = 1;
+                for (std::uint32_t r = 0; r < at.count; ++r)
+                    out.triangles[r] = references[at.first + r].triangle;
+            } else {
+                for (std::uint32_t r = 0; r < at.count; ++r) mine.references[r] = references[at.first + r];
+                build_subtree({at.box, 0, 0, at.count, at.allowed, at.depth}, settings, mine, out);
+            }
+            sizes[i] = {out.node_count, out.triangle_count};
+        }
+    }
+};
+
+// Brings a subtree's nodes and triangles to their places: its root among the roots, the rest together.
+struct PlaceSubtree {
+    const Subtree* subtrees;
+    const SubtreeSizes* sizes;
+    const SubtreeSizes* begins;  // in the tree, of what is behind the root and of the triangles
+    const std::uint32_t* nodes;
+    const std::uint32_t* triangles;
+    std::uint32_t* roots;
+    std::uint32_t* to_nodes;  // counted from the first subtree's begin, as to_triangles
+    std::uint32_t* to_triangles;
+    SWATH_BOTH void operator()(std::uint32_t i) const {
+        const Subtree& s = subtrees[i];
+        const SubtreeSizes begin = begins[i];
+        const std::uint32_t* from = nodes + 4 * s.first_node;
+        std::uint32_t* const behind = to_nodes + 4 * std::size_t{begin.nodes - begins[0].nodes};
+        for (std::uint32_t n = 0; n < sizes[i].nodes; ++n, from += 4) {
+            std::uint32_t* to = n == 0 ? roots + 4 * std::size_t{i} : behind + 4 * (std::size_t{n} - 1);
+            const std::uint32_t axes = from[3] & 7;
+            to[0] = from[0] + (axes == 0 ? begin.triangles : 0);
+            to[1] = from[1];
+            to[2] = from[2];
+            // Child 1 is the first behind the root.
+            to[3] = axes == 0 ? 0 : ((from[3] >> 3) - 1 + begin.nodes) << 3 | axes;
+        }
+        std::uint32_t* const of = to_triangles + (begin.triangles - begins[0].triangles);
+        for (std::uint32_t t = 0; t < sizes[i].triangles; ++t) of[t] = triangles[s.first_triangle + t];
+    }
+};
+
+// One build after the other; keeps its memory for the next.
+class ThrustBuild {
+  public:
+    // Workers that build subtrees: each needs scratch space.
+    explicit ThrustBuild(std::uint32_t max_workers) : max_workers_(max_workers) {}
+
+    SahOutcome build(const SahTriangles& input, const SahSettings& settings) {
+        settings_ = settings;
+        opens_.clear();
+        subtrees_.clear();
+        const auto count = static_cast<std::uint32_t>(input.count());
+        try {
+            SahTree tree;
+            SahBox box;
+            if (!make_references(input, box))
+                return {{},
+                        "a triangle has a coordinate that is not a number or is beyond 1e18, or a corner "
+                        "that is not there"};
+            for (int axis = 0; axis < 3; ++axis) {
+                tree.box.min[axis] = box.low[axis];
+                tree.box.max[axis] = box.high[axis];
+            }
+            grow(tree, 1, 0);
+            add_child({box, 0, count, count * settings.max_duplication, 0, 0, 0, 0});
+            build_subtrees(tree);
+            while (!opens_.empty()) {
+                cut_level(tree);
+                std::swap(references_, scattered_);
+                build_subtrees(tree);
+            }
+            return {std::move(tree), {}};
+        } catch (const TooLarge& too_large) {
+            // The next build may be a small one, and should not have to do without what this one took.
+            *this = ThrustBuild(max_workers_);
+            return {{},
+                    "a tree over " + std::to_string(count) + " triangles takes more than the " +
+                        std::to_string(settings.max_bytes) + " bytes that it may have (" +
+                        std::to_string(too_large.bytes) + " for " + too_large.what + ")"};
+        }
+    }
+
+  private:
+    struct TooLarge {
+        std::size_t bytes;
+        const char* what;
+    };
+    void charge(std::size_t before, std::size_t now, const char* what) {
+        bytes_ = bytes_ - before + now;
+        if (bytes_ > settings_.max_bytes) throw TooLarge{now, what};
+    }
+    // `size` places, whatever they hold; an array never shrinks, since the next build is often as large.
+    template <class T>
+    T* room(Array<T>& array, std::size_t size, const char* what) {
+        if (array.size() < size) {
+            charge(sizeof(T) * array.size(), sizeof(T) * size, what);
+            Array<T>().swap(array);
+            array.resize(size);
+        }
+        return raw(array);
+    }
+    template <class T>
+    const T* upload(Array<T>& array, const std::vector<T>& values, const char* what) {
+        room(array, values.size(), what);
+        thrust::copy(values.begin(), values.end(), array.begin());
+        return raw(array);
+    }
+    template <class T>
+    std::vector<T> download(const Array<T>& array, std::size_t size) {
+        std::vector<T> values(size);
+        thrust::copy(array.begin(), array.begin() + static_cast<std::ptrdiff_t>(size), values.begin());
+        return values;
+    }
+    // The tree is the caller's, so that every build pays for its own.
+    void grow(SahTree& tree, std::size_t nodes, std::size_t triangles) {
+        const std::size_t bytes = nodes * sizeof(SahNode) + triangles * sizeof(std::uint32_t);
+        if (nodes > kMaxSahNodes || bytes_ + bytes > settings_.max_bytes) throw TooLarge{bytes, "the tree"};
+        tree.nodes.resize(nodes);
+        tree.triangles.resize(triangles);
+    }
+
+    // False if there is a triangle that cannot be.
+    bool make_references(const SahTriangles& input, SahBox& box) {
+        const auto count = static_cast<std::uint32_t>(input.count());
+        MakeReferences make{};
+        make.stride = input.stride;
+        make.position_count = static_cast<std::uint32_t>(input.position_count);
+        if constexpr (kOnHost) {
+            make.positions = reinterpret_cast<const unsigned char*>(input.positions);
+            make.indices = input.indices.data();
+        } else {
+            const auto* from = reinterpret_cast<const unsigned char*>(input.positions);
+            // What is behind the last position is not the caller's.
+            const std::size_t bytes = input.stride * (input.position_count - 1) + 3 * sizeof(float);
+            make.positions = room(positions_, bytes, "the positions");
+            thrust::copy(from, from + bytes, positions_.begin());
+            make.indices = room(indices_, input.indices.size(), "the indices");
+            thrust::copy(input.indices.begin(), input.indices.end(), indices_.begin());
+        }
+        make.references = room(references_, count, "the references");
+        for_all(count, make);
+        box = thrust::transform_reduce(thrust::device, references_.begin(),
+                                       references_.begin() + static_cast<std::ptrdiff_t>(count), BoxOf{},
+                                       SahBox{{kHuge, kHuge, kHuge}, {-kHuge, -kHuge, -kHuge}}, Bounding{});
+        float size = 0.0f;
+        for (int axis = 0; axis < 3; ++axis) size = higher(size, higher(-box.low[axis], box.high[axis]));
+        return size <= kMaxSahCoordinate;
+    }
+
+    void add_child(const Open& child) {
+        if (child.count > settings_.grain)
+            opens_.push_back(child);
+        else
+            subtrees_.push_back({child, 0, 0});
+    }
+
+    // Cuts the nodes of opens_, whose references are in references_; their children become opens_ and
+    // subtrees_, their references go to scattered_.
+    void cut_level(SahTree& tree) {
+        std::vector<Chunk> chunks;
+        for (std::size_t i = 0; i < opens_.size(); ++i) {
+            Open& open = opens_[i];
+            open.first_chunk = static_cast<std::uint32_t>(chunks.size());
+            open.chunks = (open.count + kChunk - 1) / kChunk;
+            for (std::uint32_t begin = 0; begin < open.count; begin += kChunk)
+                chunks.push_back({static_cast<std::uint32_t>(i), open.first + begin,
+                                  std::min<std::uint32_t>(kChunk, open.count - begin)});
+        }
+        const Open* opens = upload(d_opens_, opens_, "nodes");
+        const Chunk* d_chunks = upload(d_chunks_, chunks, "chunks");
+        const SahReference* references = raw(references_);
+        std::uint32_t* bins = room(bins_, bin_words() * chunks.size(), "bins");
+        SahSample* samples = room(samples_, 3 * opens_.size(), "samples");
+        SahNearest* nears = room(nears_, chunks.size(), "samples");
+        SahCut* cuts = room(d_cuts_, opens_.size(), "cuts");
+        for_all(chunks.size(), BinChunk{opens, d_chunks, references, bins, settings_});
+        for_all(3 * opens_.size(), FindSample{opens, bins, samples, settings_});
+        for_all(chunks.size(), FindNearest{d_chunks, references, samples, nears, settings_.refine});
+        for_all(opens_.size(), FindCut{opens, samples, nears, cuts, settings_});
+        std::vector<SahCut> found = download(d_cuts_, opens_.size());
+
+        const std::size_t counted = 8 * chunks.size();
+        std::uint32_t* counts = room(counts_, counted + 1, "counts");
+        unsigned char* children = room(children_, references_.size(), "counts");
+        room(begins_, counted + 1, "counts");
+        std::vector<std::uint32_t> begins;
+        // Twice more where triangles would stand in too many children: cut along the best axis only, then not
+        // at all.
+        for (bool again = true; again;) {
+            again = false;
+            for_all(chunks.size(), CountChildren{opens, d_chunks, cuts, references, children, counts});
+            thrust::exclusive_scan(thrust::device, counts_.begin(),
+                                   counts_.begin() + static_cast<std::ptrdiff_t>(counted + 1),
+                                   begins_.begin());
+            begins = download(begins_, counted + 1);
+            for (std::size_t i = 0; i < opens_.size(); ++i) {
+                const std::uint32_t axes = axes_of(found[i]);
+                if (axes == 0 || needed_by(opens_[i], axes, begins) <= opens_[i].allowed) continue;
+                again = true;
+                keep_best(found[i]);
+            }
+            if (again) thrust::copy(found.begin(), found.end(), d_cuts_.begin());
+        }
+        SahReference* parts = room(scattered_, begins[counted], "the references");
+        for_all(chunks.size(), Scatter{opens, d_chunks, cuts, references, children, raw(begins_), parts});
+
+        std::vector<Open> parents;
+        parents.swap(opens_);
+        for (std::size_t i = 0; i < parents.size(); ++i) add_children(parents[i], found[i], begins, tree);
+    }
+
+    // What its leaves have at least.
+    static std::uint32_t needed_by(const Open& open, std::uint32_t axes,
+                                   const std::vector<std::uint32_t>& begins) {
+        std::uint32_t needed = 0;
+        for (std::uint32_t child = 0; child < 8; ++child)
+            if ((child & ~axes) == 0)
+                needed += std::max(begin_of(open, child + 1, begins) - begin_of(open, child, begins), 1u);
+        return needed;
+    }
+    static std::uint32_t begin_of(const Open& open, std::uint32_t child,
+                                  const std::vector<std::uint32_t>& begins) {
+        return begins[std::size_t{8} * open.first_chunk + std::size_t{child} * open.chunks];
+    }
+
+    void add_children(const Open& parent, const SahCut& cut, const std::vector<std::uint32_t>& begins,
+                      SahTree& tree) {
+        const std::uint32_t axes = axes_of(cut);
+        if (axes == 0) {
+            Open leaf = parent;
+            leaf.first = begin_of(parent, 0, begins);
+            subtrees_.push_back({leaf, 0, 0});
+            return;
+        }
+        std::array<float, 3> position{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (cut.planes[axis].any) position[axis] = cut.planes[axis].position;
+        auto node = static_cast<std::uint32_t>(tree.nodes.size());
+        tree.nodes[parent.node] = SahNode::inner(position, axes, node);
+        grow(tree, tree.nodes.size() + (std::size_t{1} << std::popcount(axes)), tree.triangles.size());
+        const std::uint32_t needed = needed_by(parent, axes, begins);
+        for (std::uint32_t child = 0; child < 8; ++child) {
+            if ((child & ~axes) != 0) continue;
+            const std::uint32_t first = begin_of(parent, child, begins);
+            const std::uint32_t count = begin_of(parent, child + 1, begins) - first;
+            if (count > 0)
+                add_child({box_of_child(parent.box, child, cut), first, count,
+                           share_of(parent.allowed, needed, count), node, parent.depth + 1, 0, 0});
+            ++node;
+        }
+    }
+
+    // Finishes subtrees_, whose references are in references_.
+    void build_subtrees(SahTree& tree) {
+        const std::size_t count = subtrees_.size();
+        if (count == 0) return;
+        std::size_t node_room = 0;
+        std::size_t triangle_room = 0;
+        for (Subtree& subtree : subtrees_) {
+            subtree.first_node = node_room;
+            subtree.first_triangle = triangle_room;
+            node_room += nodes_for(subtree.at.allowed);
+            triangle_room += subtree.at.allowed;
+        }
+        BuildSubtrees build{};
+        build.workers = static_cast<std::uint32_t>(std::min<std::size_t>(max_workers_, count));
+        build.subtrees = upload(d_subtrees_, subtrees_, "subtrees");
+        build.count = static_cast<std::uint32_t>(count);
+        build.references = raw(references_);
+        build.scratch_each = kScratchLists * settings_.grain;
+        build.scratch = room(scratch_, std::size_t{build.workers} * build.scratch_each, "scratch");
+        build.bins = room(scratch_bins_, bin_words() * build.workers, "scratch");
+        build.nodes = room(nodes_, 4 * node_room, "nodes");
+        build.triangles = room(triangles_, triangle_room, "leaves");
+        build.sizes = room(sizes_, count, "subtrees");
+        build.settings = settings_;
+        for_all(build.workers, build);
+
+        std::vector<SubtreeSizes> begins = download(sizes_, count);
+        const std::size_t nodes_before = tree.nodes.size();
+        const std::size_t triangles_before = tree.triangles.size();
+        std::size_t nodes = nodes_before;
+        std::size_t triangles = triangles_before;
+        for (SubtreeSizes& begin : begins) {
+            const SubtreeSizes size = begin;
+            begin = {static_cast<std::uint32_t>(nodes), static_cast<std::uint32_t>(triangles)};
+            nodes += size.nodes - 1;
+            triangles += size.triangles;
+        }
+        grow(tree, nodes, triangles);
+        std::vector<SahNode> roots(count);
+        PlaceSubtree place{};
+        place.subtrees = build.subtrees;
+        place.sizes = build.sizes;
+        place.begins = upload(d_begins_, begins, "subtrees");
+        place.nodes = build.nodes;
+        place.triangles = build.triangles;
+        if constexpr (kOnHost) {
+            place.roots = reinterpret_cast<std::uint32_t*>(roots.data());
+            place.to_nodes = reinterpret_cast<std::uint32_t*>(tree.nodes.data() + nodes_before);
+            place.to_triangles = tree.triangles.data() + triangles_before;
+            for_all(count, place);
+        } else {
+            place.roots = room(roots_, 4 * count, "nodes");
+            place.to_nodes = room(placed_nodes_, 4 * (nodes - nodes_before), "nodes");
+            place.to_triangles = room(placed_triangles_, triangles - triangles_before, "leaves");
+            for_all(count, place);
+            const auto fetch = [](const Array<std::uint32_t>& from, std::size_t size, void* to) {
+                thrust::copy(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(size),
+                             static_cast<std::uint32_t*>(to));
+            };
+            fetch(roots_, 4 * count, roots.data());
+            fetch(placed_nodes_, 4 * (nodes - nodes_before), tree.nodes.data() + nodes_before);
+            fetch(placed_triangles_, triangles - triangles_before, tree.triangles.data() + triangles_before);
+        }
+        for (std::size_t i = 0; i < count; ++i) tree.nodes[subtrees_[i].at.node] = roots[i];
+        subtrees_.clear();
+    }
+
+    std::size_t bin_words() const { return kBinWords * (std::size_t{settings_.max_bins} + 1); }
+
+    std::uint32_t max_workers_;
+    std::size_t bytes_ = 0;
+    SahSettings settings_;
+    std::vector<Open> opens_;
+    std::vector<Subtree> subtrees_;
+    Array<unsigned char> positions_;
+    Array<std::uint32_t> indices_;
+    Array<SahReference> references_;
+    Array<SahReference> scattered_;
+    Array<Open> d_opens_;
+    Array<Chunk> d_chunks_;
+    Array<SahSample> samples_;
+    Array<SahNearest> nears_;
+    Array<SahCut> d_cuts_;
+    Array<std::uint32_t> bins_;
+    Array<unsigned char> children_;  // of references_
+    Array<std::uint32_t> counts_;
+    Array<std::uint32_t> begins_;
+    Array<Subtree> d_subtrees_;
+    Array<SubtreeSizes> sizes_;
+    Array<SubtreeSizes> d_begins_;
+    Array<SahReference> scratch_;
+    Array<std::uint32_t> scratch_bins_;
+    Array<std::uint32_t> nodes_;
+    Array<std::uint32_t> triangles_;
+    Array<std::uint32_t> roots_;  // these three on a GPU only
+    Array<std::uint32_t> placed_nodes_;
+    Array<std::uint32_t> placed_triangles_;
+};
+
+}  // namespace
+}  // namespace swath

@@ -1,0 +1,36 @@
+#define THRUST_DEVICE_SYSTEM THRUST_DEVICE_SYSTEM_TBB
+#include <tbb/task_arena.h>
+
+#include "common/octree/sah/sah_build.h"
+
+namespace swath {
+namespace {
+constexpr bool kOnHost = true;
+// References that a thread works on at once: 128 KiB.
+constexpr std::uint32_t kChunk = 4096;
+constexpr std::uint32_t kScratchLists = 8;
+}  // namespace
+}  // namespace swath
+#include "common/octree/sah/sah_build.inl"
+
+namespace swath {
+namespace {
+
+class TbbBuild final : public SahBuild {
+  public:
+    explicit TbbBuild(std::size_t threads)
+        : arena_(static_cast<int>(threads)), build_(static_cast<std::uint32_t>(8 * threads)) {}
+    SahOutcome build(const SahTriangles& triangles, const SahSettings& settings) override {
+        return arena_.execute([&] { return build_.build(triangles, settings); });
+    }
+
+  private:
+    tbb::task_arena arena_;
+    ThrustBuild build_;
+};
+
+}  // namespace
+
+std::unique_ptr<SahBuild> make_tbb_build(std::size_t threads) { return std::make_unique<TbbBuild>(threads); }
+
+}  // namespace swath

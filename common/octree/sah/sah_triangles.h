@@ -1,0 +1,19 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace swath {
+
+// The triangles that a tree is built over, in memory of somebody else's: three indices each, and the
+// positions that they point at, three floats that stand `stride` bytes apart.
+struct SahTriangles {
+    const std::byte* positions = nullptr;
+    std::size_t stride = 0;
+    std::size_t position_count = 0;
+    std::span<const std::uint32_t> indices;
+
+    std::size_t count() const { return indices.size() / 3; }
+};
+
+}  // namespace swath
