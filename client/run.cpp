@@ -131,9 +131,9 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
     if (options.single) {
         SingleJob job;
         job.scene = &scene;
-        job.renderer = options.renderer;
+        job.renderer.kind = options.renderer;
+        job.renderer.threads = drawing_threads(options.threads);
         job.cull = options.cull;
-        job.cull_threads = drawing_threads(options.threads);
         job.cameras = std::move(*cameras);
         job.width = options.width;
         job.height = options.height;

@@ -7,6 +7,7 @@
 #include "common/base/allocator.h"
 #include "common/program/health.h"
 #include "common/program/program.h"
+#include "common/renderers/make_renderer.h"
 #include "server/session/server.h"
 
 int main(int argc, char** argv) {
@@ -46,7 +47,7 @@ int main(int argc, char** argv) {
         return health ? kExitDone : run_error(health.error());
     }
     options.cache = cache;
-    options.cull_threads = drawing_threads(threads);
+    options.threads = drawing_threads(threads);
     set_raster_threads(threads);
     // A terminal's Ctrl-C reaches all programs; one on a lifeline leaves it to the one that started it.
     StopSignals signals(kExitDone, !program.lifeline);

@@ -4,6 +4,7 @@
 
 #include "common/cull/leaf_cull.h"
 #include "common/image/pixel_codec.h"
+#include "common/renderers/make_renderer.h"
 #include "common/timeline/phase_timer.h"
 
 namespace swath {
@@ -14,7 +15,7 @@ Result<std::vector<FrameTimeline>> render_single(
     auto renderer = make_renderer(job.renderer, *job.scene);
     if (!renderer) return tl::unexpected(renderer.error());
     std::vector<ObjectId> all(job.scene->objects.size());
-    ThreadTeam team(job.cull_threads, clock);
+    ThreadTeam team(job.renderer.threads, clock);
     LeafCull cull(job.cull, *job.scene, team);
     std::iota(all.begin(), all.end(), ObjectId{0});
 

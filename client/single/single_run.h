@@ -17,9 +17,8 @@ namespace swath {
 // cluster picture equals these byte for byte. Blocking.
 struct SingleJob {
     const ObjectSet* scene = nullptr;
-    RendererKind renderer = RendererKind::kOsmesa;
+    RendererSetup renderer;  // its threads cull, too
     CullAlgorithm cull = CullAlgorithm::kWide;
-    std::size_t cull_threads = 1;
     std::vector<Camera> cameras;
     int width = 1280;
     int height = 960;

@@ -215,7 +215,7 @@ std::string GlRenderer::description() const {
     return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
 }
 
-Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, const ObjectSet& scene) {
+Result<std::unique_ptr<Renderer>> make_gl_renderer(RendererKind kind, const ObjectSet& scene) {
     auto context = kind == RendererKind::kEgl ? make_egl_context() : make_osmesa_context();
     if (!context) return tl::unexpected(context.error());
     return GlRenderer::make(std::move(*context), scene);

@@ -44,4 +44,8 @@ class GlRenderer final : public Renderer {
     std::vector<const void*> positions_;  // in the index buffer
 };
 
+// With OSMesa or EGL, on the calling thread. The scene must outlive it. Fails when the library or the driver
+// is missing, or the scene does not fit.
+Result<std::unique_ptr<Renderer>> make_gl_renderer(RendererKind kind, const ObjectSet& scene);
+
 }  // namespace swath

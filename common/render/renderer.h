@@ -1,5 +1,5 @@
 #pragma once
-#include <memory>
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -11,6 +11,16 @@
 #include "common/scene/objects.h"
 
 namespace swath {
+
+// What to draw with, and how.
+struct RendererSetup {
+    RendererKind kind = RendererKind::kOsmesa;
+    // Of the ray caster; OpenGL has neither, and its library knows its threads by itself.
+    bool shadows = false;     // hard ones, cast by the whole model
+    bool dynamic = false;     // its tree is built anew for every frame, over what is drawn
+    std::size_t threads = 1;  // that may cast rays, the drawing one among them; at least 1
+    bool operator==(const RendererSetup&) const = default;
+};
 
 // Draws objects of one ObjectSet and hands out the pixels. What it draws for a pixel depends on the objects
 // and the view only, never on the other pixels asked for: that is what makes a cluster's picture exact. A
@@ -30,9 +40,5 @@ class Renderer {
     // For people: library, version, limits.
     virtual std::string description() const = 0;
 };
-
-// Makes a renderer on the calling thread. The scene must outlive it. Fails when the library or the driver is
-// missing, or the scene does not fit.
-Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, const ObjectSet& scene);
 
 }  // namespace swath

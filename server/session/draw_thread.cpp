@@ -26,23 +26,29 @@ DrawThread::~DrawThread() {
 // no two.
 Status DrawThread::configure(const Drawing& drawing) {
     const bool cut = drawing.octree_depth != scene_.depth;
-    if (cut || drawing.renderer != drawing_.renderer) renderer_.reset();
+    if (cut || renderer_of(drawing) != renderer_of(drawing_)) renderer_.reset();
     if (cut) {
         cull_.reset();
         scene_ = build_objects(std::move(scene_.mesh), {drawing.octree_depth, 0});
     }
     if (!cull_ || drawing.cull != drawing_.cull) {
         cull_.reset();
-        team_ =
-            std::make_unique<ThreadTeam>(drawing.cull == CullAlgorithm::kNone ? 1 : cull_threads_, clock_);
+        team_ = std::make_unique<ThreadTeam>(drawing.cull == CullAlgorithm::kNone ? 1 : threads_, clock_);
         cull_ = std::make_unique<LeafCull>(drawing.cull, scene_, *team_);
     }
     drawing_ = drawing;
     if (renderer_) return {};
-    auto renderer = factory_(drawing.renderer, scene_);
+    auto renderer = factory_(renderer_of(drawing), scene_);
     if (!renderer) return tl::unexpected(renderer.error());
     renderer_ = std::move(*renderer);
     return {};
+}
+
+RendererSetup DrawThread::renderer_of(const Drawing& drawing) const {
+    RendererSetup setup;
+    setup.kind = drawing.renderer;
+    setup.threads = threads_;
+    return setup;
 }
 
 Loaded DrawThread::loaded() const {

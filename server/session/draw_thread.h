@@ -40,15 +40,16 @@ struct Loaded {
 };
 
 // How a server gets its renderer; benchmarks and tests bring their own.
-using RendererFactory = std::function<Result<std::unique_ptr<Renderer>>(RendererKind, const ObjectSet&)>;
+using RendererFactory =
+    std::function<Result<std::unique_ptr<Renderer>>(const RendererSetup&, const ObjectSet&)>;
 
 // The thread that owns the scene and its renderer: the GL context is bound to it. Results go to callbacks ON
 // THAT THREAD, which post them on. Destroying it waits for the job in progress.
 class DrawThread {
   public:
-    // `cull_threads` cull together, this one among them; at least 1.
-    DrawThread(RendererFactory factory, std::size_t cull_threads, const Clock& clock)
-        : factory_(std::move(factory)), clock_(clock), cull_threads_(cull_threads) {}
+    // So many threads cull together and cast rays, this one among them; at least 1.
+    DrawThread(RendererFactory factory, std::size_t threads, const Clock& clock)
+        : factory_(std::move(factory)), clock_(clock), threads_(threads) {}
     ~DrawThread();
 
     // Runs something slow that needs no scene, e.g. reading a model.
@@ -61,12 +62,13 @@ class DrawThread {
 
   private:
     Status configure(const Drawing& drawing);
+    RendererSetup renderer_of(const Drawing& drawing) const;
     Loaded loaded() const;
     Drawn draw_now(DrawJob job);
 
     RendererFactory factory_;
     const Clock& clock_;
-    std::size_t cull_threads_;
+    std::size_t threads_;
     std::unique_ptr<ThreadTeam> team_;    // of thread_
     ObjectSet scene_;                     // of thread_
     Drawing drawing_;                     // of thread_; of what there is

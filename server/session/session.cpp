@@ -20,7 +20,7 @@ ServerSession::ServerSession(asio::io_context& io, const ServerOptions& options,
       clock_(clock),
       client_(std::move(client)),
       store_(options.cache),
-      draw_thread_(std::make_unique<DrawThread>(std::move(factory), options.cull_threads, clock)) {}
+      draw_thread_(std::make_unique<DrawThread>(std::move(factory), options.threads, clock)) {}
 
 void ServerSession::stop() {
     client_->finish();

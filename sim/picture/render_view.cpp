@@ -4,12 +4,12 @@
 
 #include "common/image/pixel_codec.h"
 #include "common/image/pixel_frame.h"
-#include "common/render/renderer.h"
+#include "common/renderers/make_renderer.h"
 
 namespace swath::sim {
 
 Result<Picture> render_view(const ObjectSet& scene, const View& view, const Rgb& background) {
-    auto renderer = make_renderer(RendererKind::kOsmesa, scene);
+    auto renderer = make_renderer(RendererSetup{}, scene);
     if (!renderer) return tl::unexpected(renderer.error());
     std::vector<ObjectId> all(scene.objects.size());
     std::iota(all.begin(), all.end(), ObjectId{0});

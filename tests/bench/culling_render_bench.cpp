@@ -6,7 +6,7 @@
 #include "client/path/path.h"
 #include "common/cull/leaf_cull.h"
 #include "common/program/program.h"
-#include "common/render/renderer.h"
+#include "common/renderers/make_renderer.h"
 #include "common/scene/model.h"
 #include "tests/bench/figures.h"
 #include "tests/support/models.h"
@@ -52,7 +52,7 @@ Status draw(Renderer& renderer, LeafCull& cull, const Frame& frame, Cost& cost) 
 // Every frame culled by object and by leaf in turn, with one renderer: the triangles' order is the same.
 Status measure(Figures& figures, const Effort& effort, const std::string& name, const ObjectSet& coarse,
                const ObjectSet& fine, const std::vector<Frame>& frames) {
-    auto renderer = make_renderer(RendererKind::kOsmesa, coarse);
+    auto renderer = make_renderer(RendererSetup{}, coarse);
     if (!renderer) return tl::unexpected(renderer.error());
     const SteadyClock clock;
     ThreadTeam team(1, clock);

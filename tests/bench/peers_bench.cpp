@@ -18,6 +18,7 @@
 #include "client/cluster/run_cluster.h"
 #include "client/path/path.h"
 #include "common/program/cli.h"
+#include "common/renderers/make_renderer.h"
 #include "common/scene/model.h"
 #include "common/scene/model_blob.h"
 #include "display/session/display.h"
@@ -152,13 +153,13 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
         servers.push_back(std::make_unique<Child>([](boost::asio::io_context& io, const Clock& clock) {
             ServerOptions options;
             options.cache = std::filesystem::temp_directory_path() / "swath-bench";
-            return make_server(
-                io, options, clock,
-                [](RendererKind kind, const ObjectSet& objects) -> Result<std::unique_ptr<Renderer>> {
-                    auto renderer = make_renderer(kind, objects);
-                    if (!renderer) return renderer;
-                    return std::make_unique<CachedRenderer>(std::move(*renderer));
-                });
+            return make_server(io, options, clock,
+                               [](const RendererSetup& setup,
+                                  const ObjectSet& objects) -> Result<std::unique_ptr<Renderer>> {
+                                   auto renderer = make_renderer(setup, objects);
+                                   if (!renderer) return renderer;
+                                   return std::make_unique<CachedRenderer>(std::move(*renderer));
+                               });
         }));
     const Child display(
         [](boost::asio::io_context& io, const Clock& clock) { return make_display(io, {}, clock); });

@@ -7,7 +7,7 @@
 #include "client/path/path.h"
 #include "common/cull/leaf_cull.h"
 #include "common/image/pixel_codec.h"
-#include "common/render/renderer.h"
+#include "common/renderers/make_renderer.h"
 #include "common/scene/model.h"
 #include "common/wire/codec.h"
 #include "tests/bench/figures.h"
@@ -83,7 +83,7 @@ Status bench_swap(Figures& figures, const Effort& effort) {
     const ObjectSet scene = build_objects(std::move(*mesh), {});
     const auto cameras = make_path("orbit", scene.bounds, {8, 1, 4.0f / 3.0f, 1.0f});
     if (!cameras) return tl::unexpected(cameras.error());
-    auto renderer = make_renderer(RendererKind::kOsmesa, scene);
+    auto renderer = make_renderer(RendererSetup{}, scene);
     if (!renderer) return tl::unexpected(renderer.error());
 
     const auto partitioner = make_partitioner(Algorithm::kHybrid, scene.objects);

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/cull/leaf_cull.h"
-#include "common/render/renderer.h"
+#include "common/renderers/make_renderer.h"
 #include "tests/common/cull/cull_scenes.h"
 
 // Culling for a rectangle changes no bit of it: colour, depth or id.
@@ -43,7 +43,7 @@ TEST(CulledPicture, EqualsThatOfTheWholeModel) {
     for (const glm::vec3& offset : {glm::vec3(0), glm::vec3(-300, 40, 1000), glm::vec3(3e4f, 1e5f, -2e4f)}) {
         const ObjectSet scene = test::soup(13, offset, 4);
         const std::vector<ObjectId> all = test::all_ids(scene);
-        auto renderer = make_renderer(RendererKind::kOsmesa, scene);
+        auto renderer = make_renderer(RendererSetup{}, scene);
         ASSERT_TRUE(renderer.has_value()) << renderer.error().message;
         LeafCull none(CullAlgorithm::kNone, scene, team);
         LeafCull wide(CullAlgorithm::kWide, scene, team);

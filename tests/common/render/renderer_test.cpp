@@ -1,4 +1,4 @@
-#include "common/render/renderer.h"
+#include "common/render/gl_renderer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ std::vector<DrawRun> all_of(const ObjectSet& scene) {
 }
 
 std::unique_ptr<Renderer> make(const ObjectSet& scene, RendererKind kind = RendererKind::kOsmesa) {
-    auto renderer = make_renderer(kind, scene);
+    auto renderer = make_gl_renderer(kind, scene);
     EXPECT_TRUE(renderer.has_value()) << renderer.error().message;
     return renderer ? std::move(*renderer) : nullptr;
 }

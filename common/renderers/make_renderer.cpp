@@ -1,0 +1,11 @@
+#include "common/renderers/make_renderer.h"
+
+#include "common/render/gl_renderer.h"
+
+namespace swath {
+
+Result<std::unique_ptr<Renderer>> make_renderer(const RendererSetup& setup, const ObjectSet& scene) {
+    return make_gl_renderer(setup.kind, scene);
+}
+
+}  // namespace swath
