@@ -27,8 +27,10 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     // Cull and sort together, so it may cull; it knows nothing of meshes.
     {"common/resource", {"common/base", "common/geometry", "common/cull"}},
     {"common/render", {"common/base", "common/geometry", "common/scene", "common/image"}},
+    {"common/raycast",
+     {"common/base", "common/geometry", "common/scene", "common/octree", "common/image", "common/render"}},
     // Makes what implements the interface in render.
-    {"common/renderers", {"common/base", "common/scene", "common/render"}},
+    {"common/renderers", {"common/base", "common/scene", "common/render", "common/raycast"}},
     // What travels are the values of the layers below.
     {"common/wire",
      {"common/base", "common/geometry", "common/scene", "common/plan", "common/image", "common/timeline",
