@@ -77,9 +77,9 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->needs(viewer);
     app.add_option("--algorithm", algorithm, "how to divide a frame: " + algorithm_names())
         ->capture_default_str();
-    app.add_option("--renderer", renderer, "osmesa, or egl (surfaceless)")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"osmesa", "egl"}));
+    app.add_option("--renderer", renderer,
+                   "osmesa, egl (surfaceless) or raycast; with commas between, for the servers in turn")
+        ->capture_default_str();
     app.add_option("--cull", cull,
                    "how servers find what they draw: " + cull_algorithm_names() + " (all of their part)")
         ->capture_default_str();
@@ -135,7 +135,11 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     const auto parsed_cull = parse_cull_algorithm(cull);
     if (!parsed_cull) return refuse({"--cull: " + parsed_cull.error().message});
     options.cull = *parsed_cull;
-    options.renderer = *parse_renderer(renderer);
+    const auto renderers = parse_renderers(renderer);
+    if (!renderers) return refuse({"--renderer: " + renderers.error().message});
+    if (options.single && renderers->size() > 1)
+        return refuse({fmt::format("--renderer: '{}': --single draws with one", renderer)});
+    options.renderers = *renderers;
     if (octree->count() > 0) options.granularity.depth = depth;
     if (frame_count->count() > 0) options.frames = frames;
     options.format = options.out.empty() ? PictureFormat::kNone

@@ -23,7 +23,7 @@ struct ClientOptions {
     std::optional<ServerSource> servers;
     std::optional<Address> display;
     Algorithm algorithm = Algorithm::kHybrid;
-    RendererKind renderer = RendererKind::kOsmesa;
+    std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // of the servers in turn
     CullAlgorithm cull = CullAlgorithm::kWide;
     Granularity granularity;
     int width = 1280;

@@ -55,7 +55,7 @@ Result<LiveView::Settings> live_settings(const ClientOptions& options, const Obj
     live.start.height = std::min(options.height, live.limits.max_height);
     live.start.algorithm = options.algorithm;
     live.start.setup = {options.granularity.depth ? scene.objects.size() : options.granularity.objects,
-                        options.renderer, options.cull};
+                        options.renderers, options.cull};
     return live;
 }
 
@@ -88,7 +88,7 @@ std::string command_of(const ClientOptions& options, const LiveWish& wish,
         "swath-client {} {} --algorithm {} --renderer {} --cull {} --octree-depth {} --size {}x{} "
         "--background "
         "{:02x}{:02x}{:02x} --path view.camera --out view",
-        quoted(options.model), where, name_of(wish.algorithm), name_of(wish.setup.renderer),
+        quoted(options.model), where, name_of(wish.algorithm), renderer_list(wish.setup.renderers),
         name_of(wish.setup.cull), octree_depth, wish.width, wish.height, options.background[0],
         options.background[1], options.background[2]);
 }
@@ -131,7 +131,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
     if (options.single) {
         SingleJob job;
         job.scene = &scene;
-        job.renderer.kind = options.renderer;
+        job.renderer.kind = options.renderers.front();
         job.renderer.threads = drawing_threads(options.threads);
         job.cull = options.cull;
         job.cameras = std::move(*cameras);
@@ -158,7 +158,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
             is_builtin(options.model) ? options.model : std::filesystem::absolute(options.model).string();
         job.scene = shared_scene;
         job.blob = std::move(blob);
-        job.renderer = options.renderer;
+        job.renderers = options.renderers;
         job.cull = options.cull;
         job.algorithm = options.algorithm;
         if (options.view) {

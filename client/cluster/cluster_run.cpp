@@ -33,7 +33,7 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
           // A display that does not take it is found out by the next frame.
           (void)machines_->tell_display(Note{topic, frame}, std::move(body));
       }),
-      drawing_{job_.scene->depth, job_.renderer, job_.cull},
+      drawing_{job_.scene->depth, job_.renderers, job_.cull},
       patience_(io) {
     if (job_.live) live_.emplace(*job_.live);
     use(job_.scene);
@@ -386,7 +386,7 @@ Status ClusterRun::change_setup() {
 Status ClusterRun::on_cut(std::shared_ptr<const ObjectSet> scene) {
     if (!scene) return end_change("not enough memory to cut the model anew");
     next_scene_ = std::move(scene);
-    const Drawing next{next_scene_->depth, next_setup_.renderer, next_setup_.cull};
+    const RunDrawing next{next_scene_->depth, next_setup_.renderers, next_setup_.cull};
     if (next == drawing_) return end_change({});
     return machines_->reconfigure(next, next_scene_->objects.size(),
                                   [weak = weak_from_this()](const std::string& refused) {
@@ -399,9 +399,9 @@ Status ClusterRun::end_change(const std::string& refused) {
     auto scene = std::exchange(next_scene_, nullptr);
     changing_ = false;
     if (refused.empty()) {
-        const Drawing before =
-            std::exchange(drawing_, {scene->depth, next_setup_.renderer, next_setup_.cull});
-        if (drawing_.renderer != before.renderer || drawing_.cull != before.cull) broadcast_.on_drawing();
+        const RunDrawing before =
+            std::exchange(drawing_, {scene->depth, next_setup_.renderers, next_setup_.cull});
+        if (drawing_.renderers != before.renderers || drawing_.cull != before.cull) broadcast_.on_drawing();
         if (scene != job_.scene) use(std::move(scene));
         live_->on_setup(next_setup_);
         tell_session();  // it names the servers' renderers

@@ -31,12 +31,12 @@ struct ClusterJob {
     Address display;
     std::string model;  // as the user named it
     std::shared_ptr<const ObjectSet> scene;
-    Buffer blob;  // the model for servers that lack it
-    RendererKind renderer = RendererKind::kOsmesa;
+    Buffer blob;                                                 // the model for servers that lack it
+    std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // of the servers in turn, by their numbers
     CullAlgorithm cull = CullAlgorithm::kWide;
     Algorithm algorithm = Algorithm::kHybrid;
     std::vector<Camera> cameras;  // a frame each; none in a live run
-    // A live run: viewers say what is drawn, until somebody ends it. Renderer, cull, algorithm and size are
+    // A live run: viewers say what is drawn, until somebody ends it. Renderers, cull, algorithm and size are
     // then its start's.
     std::optional<LiveView::Settings> live;
     // The command line that draws a view, for people who look.
@@ -115,7 +115,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Broadcast broadcast_;
 
     // A change of setup, from kReconfigure on.
-    Drawing drawing_;  // in effect
+    RunDrawing drawing_;  // in effect
     bool changing_ = false;
     LiveSetup next_setup_;
     std::shared_ptr<const ObjectSet> next_scene_;

@@ -63,6 +63,7 @@ class LiveView {
     // The wish's, or what is in effect where that cannot be had.
     const LiveSetup& accepted_setup() const { return wish_.setup == refused_setup_ ? setup_ : wish_.setup; }
     Refusals refused() const;
+    const LiveWish& start() const { return settings_.start; }
     const CameraNumbers& home() const { return settings_.start.camera; }
     // The wish's; while a path plays, that of the newest order.
     const CameraNumbers& camera() const { return path_.empty() ? wish_.camera : shown_; }

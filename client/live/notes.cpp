@@ -48,6 +48,14 @@ Json names_of(const Names& all) {
     return names;
 }
 
+// Each alone, and what the run was started with.
+Json renderer_choices(const LiveView* live) {
+    Json names = names_of(kRendererKinds);
+    if (live != nullptr && live->start().setup.renderers.size() > 1)
+        names.push_back(renderer_list(live->start().setup.renderers));
+    return names;
+}
+
 Json name_or_null(const std::optional<Algorithm>& algorithm) {
     return algorithm ? Json(name_of(*algorithm)) : Json();
 }
@@ -73,7 +81,7 @@ std::string session_note(const SessionFacts& facts, const LiveView* live, const 
                            {"address", facts.servers[i].address},
                            {"renderer", facts.servers[i].renderer}});
     note["choices"] = {{"algorithms", names_of(all_algorithms())},
-                       {"renderers", names_of(kRendererKinds)},
+                       {"renderers", renderer_choices(live)},
                        {"culls", names_of(all_cull_algorithms())},
                        {"paths", {"orbit", "random"}},
                        {"objects", {100, 400, 1500, 6000, 25'000}},
@@ -147,7 +155,7 @@ std::string state_note(const LiveView& live, const std::string& busy, const std:
                     {"against", name_or_null(wish.against)},
                     {"servers", wish.servers ? Json(*wish.servers) : Json()},
                     {"objects", live.accepted_setup().objects},
-                    {"renderer", name_of(live.accepted_setup().renderer)},
+                    {"renderer", renderer_list(live.accepted_setup().renderers)},
                     {"cull", name_of(live.accepted_setup().cull)},
                     {"path", wish.path.empty() ? Json() : Json(wish.path)},
                     {"paused", wish.paused},

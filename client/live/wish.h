@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "client/partition/partitioner.h"
 #include "client/path/camera_file.h"
@@ -16,8 +17,8 @@ namespace swath {
 // What frames depend on besides the view and the way they are divided. To change it takes a pause between two
 // frames.
 struct LiveSetup {
-    std::size_t objects = 1500;  // about how many
-    RendererKind renderer = RendererKind::kOsmesa;
+    std::size_t objects = 1500;                                  // about how many
+    std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // of the servers in turn, by their numbers
     CullAlgorithm cull = CullAlgorithm::kWide;
     bool operator==(const LiveSetup&) const = default;
 };

@@ -1,25 +1,28 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/base/result.h"
 
 namespace swath {
 
-// The libraries that can draw. The numbers travel (docs/wire.md).
-enum class RendererKind : std::uint32_t { kOsmesa = 1, kEgl = 2 };
+// What can draw: two libraries of OpenGL, and our own ray caster. The numbers travel (docs/wire.md).
+enum class RendererKind : std::uint32_t { kOsmesa = 1, kEgl = 2, kRaycast = 3 };
+inline constexpr std::uint32_t kRendererKindCount = 3;
 
-inline constexpr std::array kRendererKinds{RendererKind::kOsmesa, RendererKind::kEgl};
+inline constexpr std::array kRendererKinds{RendererKind::kOsmesa, RendererKind::kEgl, RendererKind::kRaycast};
+static_assert(kRendererKinds.size() == kRendererKindCount);
 
-constexpr std::string_view name_of(RendererKind kind) {
-    return kind == RendererKind::kOsmesa ? "osmesa" : "egl";
-}
+std::string_view name_of(RendererKind kind);
+Result<RendererKind> parse_renderer(std::string_view name);
+std::string renderer_names();  // "osmesa, egl, ..."
 
-inline Result<RendererKind> parse_renderer(std::string_view name) {
-    for (const RendererKind kind : kRendererKinds)
-        if (name_of(kind) == name) return kind;
-    return fail("renderer '{}' is not known; there are: osmesa, egl", name);
-}
+// Several, for the servers of a cluster in turn: "raycast,osmesa". At least one; a name may come again.
+std::string renderer_list(std::span<const RendererKind> kinds);
+Result<std::vector<RendererKind>> parse_renderers(std::string_view names);
 
 }  // namespace swath

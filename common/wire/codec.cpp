@@ -296,7 +296,8 @@ template <class M>
 Result<Drawing> get_drawing(const M& in) {
     if (in.octree_depth() > static_cast<std::uint32_t>(kMaxOctreeDepth))
         return fail("octree_depth: {}, the limit is {}", in.octree_depth(), kMaxOctreeDepth);
-    if (in.renderer() < 1 || in.renderer() > 2) return fail("renderer: {} is none", in.renderer());
+    if (in.renderer() < 1 || in.renderer() > kRendererKindCount)
+        return fail("renderer: {} is none", in.renderer());
     if (in.cull() < 1 || in.cull() > kCullAlgorithmCount) return fail("cull: {} is none", in.cull());
     return Drawing{static_cast<int>(in.octree_depth()), static_cast<RendererKind>(in.renderer()),
                    static_cast<CullAlgorithm>(in.cull() - 1)};

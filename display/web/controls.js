@@ -6,11 +6,11 @@ import {whole} from './format.js';
 const kNames = {
     'hybrid': 'Hybrid', 'mahd': 'MAHD (sort-first)', 'kd-split': 'KD-split (sort-first)',
     'sort-last': 'Sort-last',
-    'osmesa': 'OSMesa', 'egl': 'EGL',
+    'osmesa': 'OSMesa', 'egl': 'EGL', 'raycast': 'Ray caster',
     'wide': 'Wide', 'a2ssb': 'A2SSB', 'adsb': 'ADSB', 'none': 'None',
     'orbit': 'Orbit', 'random': 'Random',
 };
-const kRenderers = ['osmesa', 'egl'];
+const kRenderers = ['osmesa', 'egl', 'raycast'];
 const kSizes = [[640, 480], [1280, 960], [1920, 1080]];
 const kSelects = ['algorithm', 'against', 'objects', 'size', 'renderer', 'cull', 'path'];
 const kNone = '';  // the value of an option that stands for null
@@ -52,7 +52,8 @@ export class Controls {
             option(String(count), `about ${whole(count)}`)), String(values.objects ?? ''));
         const renderers = [...new Set([...(choices.renderers ?? []), ...kRenderers])];
         this.#fill('renderer', renderers.map((name) =>
-            option(name, undefined, choices.renderers?.includes(name) ? '' : 'not in this build')),
+            option(name, name.split(',').map((one) => kNames[one] ?? one).join(', '),  // servers in turn
+                   choices.renderers?.includes(name) ? '' : 'not in this build')),
                    values.renderer);
         this.#fill('cull', (choices.culls ?? []).map((name) => option(name)), values.cull);
         this.#fill('path', [

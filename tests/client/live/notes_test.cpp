@@ -67,6 +67,21 @@ TEST(Notes, OfTheStateSayWhatCountsAndWhatIsRefused) {
     EXPECT_TRUE(Json::parse(state_note(live, "", ""))["busy"].is_null());
 }
 
+TEST(Notes, SayWhichRenderersTheServersHaveInTurn) {
+    LiveView::Settings settings;
+    settings.bounds = {{-1, -1, -1}, {1, 1, 1}};
+    settings.start.setup.renderers = {RendererKind::kRaycast, RendererKind::kOsmesa};
+    LiveView live(settings);
+    const auto choices = [&] {
+        return Json::parse(session_note({}, &live, {2, 100, 50}))["choices"]["renderers"].dump();
+    };
+    EXPECT_EQ(Json::parse(state_note(live, "", ""))["renderer"], "raycast,osmesa");
+    EXPECT_EQ(choices(), R"(["osmesa","egl","raycast","raycast,osmesa"])");
+    ASSERT_TRUE(live.on_wish(R"({"id":1,"renderer":"raycast"})", 1));
+    EXPECT_EQ(Json::parse(state_note(live, "", ""))["renderer"], "raycast");
+    EXPECT_EQ(choices(), R"(["osmesa","egl","raycast","raycast,osmesa"])");  // there is a way back
+}
+
 TEST(Notes, OfTheSessionSayWhatThereIsToChooseFrom) {
     const LiveView live = live_view();
     SessionFacts facts{
@@ -81,7 +96,7 @@ TEST(Notes, OfTheSessionSayWhatThereIsToChooseFrom) {
     EXPECT_EQ(note["servers"][1]["address"], "b:2");
     EXPECT_EQ(note["background"], "#0102ff");
     EXPECT_EQ(note["choices"]["algorithms"].dump(), R"(["hybrid","mahd","kd-split","sort-last"])");
-    EXPECT_EQ(note["choices"]["renderers"].dump(), R"(["osmesa","egl"])");
+    EXPECT_EQ(note["choices"]["renderers"].dump(), R"(["osmesa","egl","raycast"])");
     EXPECT_EQ(note["choices"]["culls"].dump(), R"(["wide","a2ssb","adsb","none"])");
     EXPECT_EQ(note["choices"]["max_width"], 100);
     const Json path = Json::parse(session_note(facts, nullptr, {}));

@@ -45,7 +45,7 @@ TEST_F(WishTest, SaysEverythingAtOnce) {
     expected.algorithm = Algorithm::kMahd;
     expected.against = Algorithm::kSortLast;
     expected.servers = 3;
-    expected.setup = {400, RendererKind::kEgl, CullAlgorithm::kNone};
+    expected.setup = {400, {RendererKind::kEgl}, CullAlgorithm::kNone};
     expected.path = "orbit";
     expected.paused = true;
     expected.step = 2;
@@ -87,6 +87,14 @@ TEST_F(WishTest, OfNoNumberOfServersIsForAllOfThem) {
     EXPECT_EQ(wish_.servers, std::nullopt);
 }
 
+TEST_F(WishTest, MayHaveRenderersForTheServersInTurn) {
+    apply(R"({"renderer":"raycast,osmesa,raycast"})");
+    EXPECT_THAT(wish_.setup.renderers,
+                testing::ElementsAre(RendererKind::kRaycast, RendererKind::kOsmesa, RendererKind::kRaycast));
+    apply(R"({"renderer":"egl"})");
+    EXPECT_THAT(wish_.setup.renderers, testing::ElementsAre(RendererKind::kEgl));
+}
+
 TEST_F(WishTest, RefusesValuesOfAnotherKindOrBeyondTheLimits) {
     for (const char* value : {"-1", "1.5", "\"1\"", "[]", "{}", "true", "18446744073709551615", "0"})
         EXPECT_EQ(refusal("servers", value), "a whole number from 1 to 4 is expected") << value;
@@ -95,7 +103,8 @@ TEST_F(WishTest, RefusesValuesOfAnotherKindOrBeyondTheLimits) {
     EXPECT_THAT(refusal("algorithm", "\"magic\""), HasSubstr("'magic' is not known"));
     EXPECT_EQ(refusal("algorithm", "3"), "a name is expected");
     EXPECT_THAT(refusal("against", "\"\""), HasSubstr("not known"));
-    EXPECT_THAT(refusal("renderer", "\"vulkan\""), HasSubstr("there are: osmesa, egl"));
+    EXPECT_THAT(refusal("renderer", "\"vulkan\""), HasSubstr("there are: osmesa, egl, raycast"));
+    EXPECT_THAT(refusal("renderer", "\"osmesa,\""), HasSubstr("renderer '' is not known"));
     EXPECT_THAT(refusal("cull", "\"some\""), HasSubstr("'some' is not known"));
     EXPECT_THAT(refusal("path", "\"/etc/passwd\""), HasSubstr("there are: orbit, random"));
     EXPECT_EQ(refusal("paused", "1"), "true or false is expected");

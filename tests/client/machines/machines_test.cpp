@@ -304,16 +304,16 @@ TEST_F(MachinesTest, ChangeTogetherOrNotAtAll) {
     list({address(one_), address(two_)});
     const auto second = member(two_, 1);
     EXPECT_EQ(said(), "2 members");
-    const auto change = [&](const Drawing& drawing, std::size_t objects) {
+    const auto change = [&](const RunDrawing& drawing, std::size_t objects) {
         EXPECT_TRUE(machines_->reconfigure(drawing, objects, [this](const std::string& refused) {
             log_.push_back("changed: " + refused);
             return Status();
         }));
-        EXPECT_EQ(first_->expect<Reconfigure>().drawing, drawing);
-        EXPECT_EQ(second->expect<Reconfigure>().drawing, drawing);
+        EXPECT_EQ(first_->expect<Reconfigure>().drawing, drawing.of(server_id(0)));
+        EXPECT_EQ(second->expect<Reconfigure>().drawing, drawing.of(server_id(1)));
     };
     const Drawing before{};
-    const Drawing deeper{3, RendererKind::kEgl, CullAlgorithm::kNone};
+    const RunDrawing deeper{3, {RendererKind::kEgl, RendererKind::kRaycast}, CullAlgorithm::kNone};
     change(deeper, 9);
     first_->send(Ready{9, 100, "EGL"});
     second->send(Ready{7, 100, "OSMesa", "no EGL here"});
@@ -333,12 +333,29 @@ TEST_F(MachinesTest, ChangeTogetherOrNotAtAll) {
     EXPECT_EQ(machines_->renderer(server_id(0)), "EGL");
 }
 
+TEST_F(MachinesTest, AreDealtTheirRenderersInTurnByTheirNumbers) {
+    const RunDrawing mixed{2, {RendererKind::kRaycast, RendererKind::kOsmesa}, CullAlgorithm::kNone};
+    EXPECT_EQ(mixed.of(server_id(0)), (Drawing{2, RendererKind::kRaycast, CullAlgorithm::kNone}));
+    EXPECT_EQ(mixed.of(server_id(3)), (Drawing{2, RendererKind::kOsmesa, CullAlgorithm::kNone}));
+    run();
+    EXPECT_TRUE(machines_->reconfigure(mixed, 7, [this](const std::string&) {
+        log_.emplace_back("changed");
+        return Status();
+    }));
+    EXPECT_EQ(first_->expect<Reconfigure>().drawing, mixed.of(server_id(0)));
+    first_->send(Ready{7, 100, "rays"});
+    EXPECT_EQ(said(), "changed");
+    list({address(one_), address(two_)});
+    auto second = std::make_unique<Peer>(loop_, two_.next(), hello_of(Role::kServer));
+    EXPECT_EQ(second->expect<ServerSetup>().drawing, mixed.of(server_id(1)));
+}
+
 TEST_F(MachinesTest, BringNewcomersUpToDateWhenTheDrawingHasChangedMeanwhile) {
     run();
     list({address(one_), address(two_)});
     auto slow = std::make_unique<Peer>(loop_, two_.next(), hello_of(Role::kServer));
     EXPECT_EQ(slow->expect<ServerSetup>().drawing.octree_depth, 0);
-    EXPECT_TRUE(machines_->reconfigure({3, RendererKind::kOsmesa, CullAlgorithm::kWide}, 9,
+    EXPECT_TRUE(machines_->reconfigure({3, {RendererKind::kOsmesa}, CullAlgorithm::kWide}, 9,
                                        [this](const std::string&) {
                                            log_.emplace_back("changed");
                                            return Status();

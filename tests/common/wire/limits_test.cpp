@@ -86,7 +86,7 @@ TEST(WireLimit, OfServerSetup) {
     setup.expect([](auto& m) { m.set_octree_depth(kMaxOctreeDepth + 1); },
                  in + "octree_depth: 11, the limit is 10");
     setup.expect([](auto& m) { m.set_renderer(0); }, in + "renderer: 0 is none");
-    setup.expect([](auto& m) { m.set_renderer(3); }, in + "renderer: 3 is none");
+    setup.expect([](auto& m) { m.set_renderer(4); }, in + "renderer: 4 is none");
     setup.expect([](auto& m) { m.set_cull(0); }, in + "cull: 0 is none");
     setup.expect([](auto& m) { m.set_cull(5); }, in + "cull: 5 is none");
     setup.expect([](auto& m) { m.set_frames_in_flight(0); },
@@ -133,7 +133,7 @@ TEST(WireLimit, OfReconfigure) {
     const Table<pb::Reconfigure> drawing(Reconfigure{}, &pb::Head::mutable_reconfigure);
     const std::string in = "a garbled reconfigure message: ";
     drawing.expect([](auto& m) { m.set_octree_depth(11); }, in + "octree_depth: 11, the limit is 10");
-    drawing.expect([](auto& m) { m.set_renderer(3); }, in + "renderer: 3 is none");
+    drawing.expect([](auto& m) { m.set_renderer(4); }, in + "renderer: 4 is none");
     drawing.expect([](auto& m) { m.set_cull(0); }, in + "cull: 0 is none");
 }
 

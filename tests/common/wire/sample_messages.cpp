@@ -95,8 +95,7 @@ class Maker {
         return {u64(), format, 1 + below(kMaxFramesInFlight), below(2) == 0};
     }
     Drawing drawing() {
-        return {static_cast<int>(below(kMaxOctreeDepth + 1)),
-                below(2) == 0 ? RendererKind::kOsmesa : RendererKind::kEgl,
+        return {static_cast<int>(below(kMaxOctreeDepth + 1)), kRendererKinds[below(kRendererKindCount)],
                 static_cast<CullAlgorithm>(below(kCullAlgorithmCount))};
     }
     Connect connect() {
