@@ -80,6 +80,9 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--renderer", renderer,
                    "osmesa, egl (surfaceless) or raycast; with commas between, for the servers in turn")
         ->capture_default_str();
+    app.add_flag("--shadows", options.shadows, "ray casters: hard shadows, cast by the whole model");
+    app.add_flag("--dynamic", options.dynamic,
+                 "ray casters: build the tree anew for every frame, over what a server is given to draw");
     app.add_option("--cull", cull,
                    "how servers find what they draw: " + cull_algorithm_names() + " (all of their part)")
         ->capture_default_str();
@@ -140,6 +143,12 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     if (options.single && renderers->size() > 1)
         return refuse({fmt::format("--renderer: '{}': --single draws with one", renderer)});
     options.renderers = *renderers;
+    if (!has_raycast(options.renderers))
+        for (const auto& [flag, given] :
+             {std::pair("--shadows", options.shadows), {"--dynamic", options.dynamic}})
+            if (given)
+                return refuse(
+                    {fmt::format("{}: needs a ray caster, and --renderer is '{}'", flag, renderer)});
     if (octree->count() > 0) options.granularity.depth = depth;
     if (frame_count->count() > 0) options.frames = frames;
     options.format = options.out.empty() ? PictureFormat::kNone

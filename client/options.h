@@ -24,6 +24,8 @@ struct ClientOptions {
     std::optional<Address> display;
     Algorithm algorithm = Algorithm::kHybrid;
     std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // of the servers in turn
+    bool shadows = false;                                        // of ray casters
+    bool dynamic = false;
     CullAlgorithm cull = CullAlgorithm::kWide;
     Granularity granularity;
     int width = 1280;
@@ -34,7 +36,7 @@ struct ClientOptions {
     std::uint64_t seed = 1;
     double zoom = 1;
     std::uint32_t in_flight = 3;
-    int threads = -1;  // of Mesa, per process; -1: as fits
+    int threads = -1;  // beside the drawing one, per process; -1: as fits
     std::string out;   // folder of pictures; empty: none
     PictureFormat format = PictureFormat::kPng;
     std::string timeline;  // file; empty: none

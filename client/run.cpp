@@ -84,13 +84,17 @@ std::string command_of(const ClientOptions& options, const LiveWish& wish,
         where =
             fmt::format("--servers {} --display {}", quoted(to_string(source)), to_string(*options.display));
     }
+    std::string how = renderer_list(wish.setup.renderers);
+    if (has_raycast(wish.setup.renderers)) {
+        if (options.shadows) how += " --shadows";
+        if (options.dynamic) how += " --dynamic";
+    }
     return fmt::format(
         "swath-client {} {} --algorithm {} --renderer {} --cull {} --octree-depth {} --size {}x{} "
         "--background "
         "{:02x}{:02x}{:02x} --path view.camera --out view",
-        quoted(options.model), where, name_of(wish.algorithm), renderer_list(wish.setup.renderers),
-        name_of(wish.setup.cull), octree_depth, wish.width, wish.height, options.background[0],
-        options.background[1], options.background[2]);
+        quoted(options.model), where, name_of(wish.algorithm), how, name_of(wish.setup.cull), octree_depth,
+        wish.width, wish.height, options.background[0], options.background[1], options.background[2]);
 }
 
 Status save_timeline(const std::string& file, const std::vector<FrameTimeline>& frames) {
@@ -132,6 +136,8 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         SingleJob job;
         job.scene = &scene;
         job.renderer.kind = options.renderers.front();
+        job.renderer.shadows = options.shadows;
+        job.renderer.dynamic = options.dynamic;
         job.renderer.threads = drawing_threads(options.threads);
         job.cull = options.cull;
         job.cameras = std::move(*cameras);
@@ -159,6 +165,8 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         job.scene = shared_scene;
         job.blob = std::move(blob);
         job.renderers = options.renderers;
+        job.shadows = options.shadows;
+        job.dynamic = options.dynamic;
         job.cull = options.cull;
         job.algorithm = options.algorithm;
         if (options.view) {

@@ -33,7 +33,7 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
           // A display that does not take it is found out by the next frame.
           (void)machines_->tell_display(Note{topic, frame}, std::move(body));
       }),
-      drawing_{job_.scene->depth, job_.renderers, job_.cull},
+      drawing_{job_.scene->depth, job_.renderers, job_.cull, job_.shadows, job_.dynamic},
       patience_(io) {
     if (job_.live) live_.emplace(*job_.live);
     use(job_.scene);
@@ -386,7 +386,7 @@ Status ClusterRun::change_setup() {
 Status ClusterRun::on_cut(std::shared_ptr<const ObjectSet> scene) {
     if (!scene) return end_change("not enough memory to cut the model anew");
     next_scene_ = std::move(scene);
-    const RunDrawing next{next_scene_->depth, next_setup_.renderers, next_setup_.cull};
+    const RunDrawing next = next_drawing(*next_scene_);
     if (next == drawing_) return end_change({});
     return machines_->reconfigure(next, next_scene_->objects.size(),
                                   [weak = weak_from_this()](const std::string& refused) {
@@ -395,12 +395,20 @@ Status ClusterRun::on_cut(std::shared_ptr<const ObjectSet> scene) {
                                   });
 }
 
+// Of the change that is under way.
+RunDrawing ClusterRun::next_drawing(const ObjectSet& scene) const {
+    RunDrawing next = drawing_;
+    next.octree_depth = scene.depth;
+    next.renderers = next_setup_.renderers;
+    next.cull = next_setup_.cull;
+    return next;
+}
+
 Status ClusterRun::end_change(const std::string& refused) {
     auto scene = std::exchange(next_scene_, nullptr);
     changing_ = false;
     if (refused.empty()) {
-        const RunDrawing before =
-            std::exchange(drawing_, {scene->depth, next_setup_.renderers, next_setup_.cull});
+        const RunDrawing before = std::exchange(drawing_, next_drawing(*scene));
         if (drawing_.renderers != before.renderers || drawing_.cull != before.cull) broadcast_.on_drawing();
         if (scene != job_.scene) use(std::move(scene));
         live_->on_setup(next_setup_);

@@ -34,6 +34,8 @@ struct ClusterJob {
     Buffer blob;                                                 // the model for servers that lack it
     std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // of the servers in turn, by their numbers
     CullAlgorithm cull = CullAlgorithm::kWide;
+    bool shadows = false;  // of ray casters
+    bool dynamic = false;
     Algorithm algorithm = Algorithm::kHybrid;
     std::vector<Camera> cameras;  // a frame each; none in a live run
     // A live run: viewers say what is drawn, until somebody ends it. Renderers, cull, algorithm and size are
@@ -92,6 +94,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     FrameOrder order_of(FrameNumber frame);
     Status issue(FrameNumber frame);
     Status change_setup();
+    RunDrawing next_drawing(const ObjectSet& scene) const;
     Status on_cut(std::shared_ptr<const ObjectSet> scene);
     Status end_change(const std::string& refused);
     Status go_on();

@@ -11,10 +11,12 @@ struct RunDrawing {
     int octree_depth = 0;
     std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // not empty
     CullAlgorithm cull = CullAlgorithm::kWide;
+    bool shadows = false;
+    bool dynamic = false;
     bool operator==(const RunDrawing&) const = default;
 
     Drawing of(ServerId server) const {
-        return {octree_depth, renderers[index(server) % renderers.size()], cull};
+        return {octree_depth, renderers[index(server) % renderers.size()], cull, shadows, dynamic};
     }
 };
 

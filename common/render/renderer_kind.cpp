@@ -1,5 +1,7 @@
 #include "common/render/renderer_kind.h"
 
+#include <algorithm>
+
 #include "common/base/ids.h"
 
 namespace swath {
@@ -34,6 +36,10 @@ std::string renderer_list(std::span<const RendererKind> kinds) {
     for (const RendererKind kind : kinds)
         names += fmt::format("{}{}", names.empty() ? "" : ",", name_of(kind));
     return names;
+}
+
+bool has_raycast(std::span<const RendererKind> kinds) {
+    return std::ranges::find(kinds, RendererKind::kRaycast) != kinds.end();
 }
 
 Result<std::vector<RendererKind>> parse_renderers(std::string_view names) {

@@ -23,6 +23,7 @@ std::string renderer_names();  // "osmesa, egl, ..."
 
 // Several, for the servers of a cluster in turn: "raycast,osmesa". At least one; a name may come again.
 std::string renderer_list(std::span<const RendererKind> kinds);
+bool has_raycast(std::span<const RendererKind> kinds);
 Result<std::vector<RendererKind>> parse_renderers(std::string_view names);
 
 }  // namespace swath

@@ -47,6 +47,8 @@ void put_drawing(const Drawing& drawing, M& out) {
     out.set_octree_depth(static_cast<std::uint32_t>(drawing.octree_depth));
     out.set_renderer(static_cast<std::uint32_t>(drawing.renderer));
     out.set_cull(static_cast<std::uint32_t>(drawing.cull) + 1);
+    out.set_shadows(drawing.shadows);
+    out.set_dynamic(drawing.dynamic);
 }
 
 void put_report(const Report& m, pb::Report& out) {
@@ -300,7 +302,7 @@ Result<Drawing> get_drawing(const M& in) {
         return fail("renderer: {} is none", in.renderer());
     if (in.cull() < 1 || in.cull() > kCullAlgorithmCount) return fail("cull: {} is none", in.cull());
     return Drawing{static_cast<int>(in.octree_depth()), static_cast<RendererKind>(in.renderer()),
-                   static_cast<CullAlgorithm>(in.cull() - 1)};
+                   static_cast<CullAlgorithm>(in.cull() - 1), in.shadows(), in.dynamic()};
 }
 
 Result<Message> get_server_setup(const pb::ServerSetup& in) {

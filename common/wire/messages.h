@@ -58,6 +58,9 @@ struct Drawing {
     int octree_depth = 0;
     RendererKind renderer = RendererKind::kOsmesa;
     CullAlgorithm cull = CullAlgorithm::kWide;
+    // Of a ray caster (RendererSetup).
+    bool shadows = false;
+    bool dynamic = false;
     bool operator==(const Drawing&) const = default;
 };
 

@@ -47,6 +47,8 @@ Status DrawThread::configure(const Drawing& drawing) {
 RendererSetup DrawThread::renderer_of(const Drawing& drawing) const {
     RendererSetup setup;
     setup.kind = drawing.renderer;
+    setup.shadows = drawing.shadows;
+    setup.dynamic = drawing.dynamic;
     setup.threads = threads_;
     return setup;
 }

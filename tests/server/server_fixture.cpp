@@ -6,7 +6,9 @@ ServerTest::ServerTest() : blob_(write_blob(cube())) {
     options_.cache = cache_.path_of("models");
     options_.connect_patience = std::chrono::milliseconds(200);
     options_.max_model_bytes = 1 << 20;
-    const auto factory = [this](const RendererSetup&, const ObjectSet&) -> Result<std::unique_ptr<Renderer>> {
+    const auto factory = [this](const RendererSetup& asked,
+                                const ObjectSet&) -> Result<std::unique_ptr<Renderer>> {
+        asked_ = asked;
         if (const Status status = before_renderer_(); !status) return tl::unexpected(status.error());
         return std::make_unique<FakeRenderer>();
     };

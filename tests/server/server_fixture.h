@@ -66,6 +66,7 @@ class ServerTest : public testing::Test {
     Loop loop_;
     std::function<Status()> before_renderer_ = [] { return Status(); };  // runs where renderers are made
     ServerOptions options_;
+    RendererSetup asked_;  // by the newest call of the factory
     Buffer blob_;
     std::size_t objects_ = 0;
     std::unique_ptr<SessionHost> server_;

@@ -316,6 +316,23 @@ TEST_F(ServerTest, CutsTheModelAnewBetweenFrames) {
     EXPECT_THAT(one->ending(), HasSubstr("this model has 1"));
 }
 
+TEST_F(ServerTest, MakesARayCasterAsItIsTold) {
+    const auto one = connected_client();
+    Drawing drawing = setup().drawing;
+    const RendererSetup before = asked_;
+    drawing.renderer = RendererKind::kRaycast;
+    drawing.shadows = true;
+    one->send(Reconfigure{drawing});
+    EXPECT_EQ(one->expect<Ready>().refused, "");
+    EXPECT_EQ(asked_, (RendererSetup{RendererKind::kRaycast, true, false, options_.threads}));
+    drawing.shadows = false;
+    drawing.dynamic = true;
+    one->send(Reconfigure{drawing});
+    EXPECT_EQ(one->expect<Ready>().refused, "");
+    EXPECT_EQ(asked_, (RendererSetup{RendererKind::kRaycast, false, true, options_.threads}));
+    EXPECT_EQ(before, (RendererSetup{RendererKind::kOsmesa, false, false, options_.threads}));
+}
+
 TEST_F(ServerTest, GoesOnAsBeforeWhenItCannotDrawDifferently) {
     const auto one = connected_client();
     int made = 0;

@@ -334,9 +334,11 @@ TEST_F(MachinesTest, ChangeTogetherOrNotAtAll) {
 }
 
 TEST_F(MachinesTest, AreDealtTheirRenderersInTurnByTheirNumbers) {
-    const RunDrawing mixed{2, {RendererKind::kRaycast, RendererKind::kOsmesa}, CullAlgorithm::kNone};
-    EXPECT_EQ(mixed.of(server_id(0)), (Drawing{2, RendererKind::kRaycast, CullAlgorithm::kNone}));
-    EXPECT_EQ(mixed.of(server_id(3)), (Drawing{2, RendererKind::kOsmesa, CullAlgorithm::kNone}));
+    const RunDrawing mixed{
+        2, {RendererKind::kRaycast, RendererKind::kOsmesa}, CullAlgorithm::kNone, true, false};
+    EXPECT_EQ(mixed.of(server_id(0)),
+              (Drawing{2, RendererKind::kRaycast, CullAlgorithm::kNone, true, false}));
+    EXPECT_EQ(mixed.of(server_id(3)), (Drawing{2, RendererKind::kOsmesa, CullAlgorithm::kNone, true, false}));
     run();
     EXPECT_TRUE(machines_->reconfigure(mixed, 7, [this](const std::string&) {
         log_.emplace_back("changed");

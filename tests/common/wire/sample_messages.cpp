@@ -96,7 +96,7 @@ class Maker {
     }
     Drawing drawing() {
         return {static_cast<int>(below(kMaxOctreeDepth + 1)), kRendererKinds[below(kRendererKindCount)],
-                static_cast<CullAlgorithm>(below(kCullAlgorithmCount))};
+                static_cast<CullAlgorithm>(below(kCullAlgorithmCount)), below(2) == 0, below(2) == 0};
     }
     Connect connect() {
         Connect m{text(), {}};
