@@ -37,6 +37,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     std::string algorithm = "hybrid";
     std::string renderer = "osmesa";
     std::string cull = "wide";
+    std::string objects_by = "uniform";
     std::string format = "png";
     std::vector<std::string> servers;
     std::string display;
@@ -86,9 +87,12 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--cull", cull,
                    "how servers find what they draw: " + cull_algorithm_names() + " (all of their part)")
         ->capture_default_str();
+    app.add_option("--objects-by", objects_by,
+                   "objects are cells of a uniform octree, or of a SAH octree: uniform, sah")
+        ->capture_default_str();
     auto* objects = app.add_option("--objects", options.granularity.objects,
                                    "cut the model into about this many objects [1500]")
-                        ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
+                        ->check(CLI::Range(std::size_t{1}, kMaxObjectsAsked));
     auto* octree = app.add_option("--octree-depth", depth, "... or by an octree of this depth")
                        ->check(CLI::Range(0, kMaxOctreeDepth));
     octree->excludes(objects);
@@ -149,6 +153,11 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
             if (given)
                 return refuse(
                     {fmt::format("{}: needs a ray caster, and --renderer is '{}'", flag, renderer)});
+    const auto by = parse_objects_by(objects_by);
+    if (!by) return refuse({"--objects-by: " + by.error().message});
+    options.granularity.by = *by;
+    if (octree->count() > 0 && *by == ObjectsBy::kSah)
+        return refuse({"--octree-depth: a SAH octree has no one depth; with --objects-by sah say --objects"});
     if (octree->count() > 0) options.granularity.depth = depth;
     if (frame_count->count() > 0) options.frames = frames;
     options.format = options.out.empty() ? PictureFormat::kNone

@@ -72,7 +72,7 @@ std::string quoted(const std::string& word) {
 
 // The command that draws what a live run shows, with the camera in a file.
 std::string command_of(const ClientOptions& options, const LiveWish& wish,
-                       const std::vector<Address>& servers, int octree_depth) {
+                       const std::vector<Address>& servers, const Cut& cut) {
     const std::size_t count = std::min(wish.servers.value_or(servers.size()), servers.size());
     std::string where = fmt::format("--local {}", count);
     if (options.display) {
@@ -84,16 +84,19 @@ std::string command_of(const ClientOptions& options, const LiveWish& wish,
         where =
             fmt::format("--servers {} --display {}", quoted(to_string(source)), to_string(*options.display));
     }
+    const std::string what = cut.by == ObjectsBy::kSah
+                                 ? fmt::format("--objects-by sah --objects {}", cut.objects)
+                                 : fmt::format("--octree-depth {}", cut.depth);
     std::string how = renderer_list(wish.setup.renderers);
     if (has_raycast(wish.setup.renderers)) {
         if (options.shadows) how += " --shadows";
         if (options.dynamic) how += " --dynamic";
     }
     return fmt::format(
-        "swath-client {} {} --algorithm {} --renderer {} --cull {} --octree-depth {} --size {}x{} "
+        "swath-client {} {} --algorithm {} --renderer {} --cull {} {} --size {}x{} "
         "--background "
         "{:02x}{:02x}{:02x} --path view.camera --out view",
-        quoted(options.model), where, name_of(wish.algorithm), how, name_of(wish.setup.cull), octree_depth,
+        quoted(options.model), where, name_of(wish.algorithm), how, name_of(wish.setup.cull), what,
         wish.width, wish.height, options.background[0], options.background[1], options.background[2]);
 }
 
@@ -113,8 +116,8 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
     const auto shared_scene =
         std::make_shared<const ObjectSet>(build_objects(std::move(*mesh), options.granularity));
     const ObjectSet& scene = *shared_scene;
-    spdlog::info("{}: {} triangles in {} objects (octree depth {}), {:.2f} s", options.model,
-                 scene.mesh.triangle_count(), scene.objects.size(), scene.depth,
+    spdlog::info("{}: {} triangles in {} objects ({}), {:.2f} s", options.model, scene.mesh.triangle_count(),
+                 scene.objects.size(), to_string(scene.cut),
                  std::chrono::duration<double>(clock.now() - begin).count());
 
     PathOptions path{options.frames, options.seed,
@@ -176,9 +179,8 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         } else {
             job.cameras = std::move(*cameras);
         }
-        job.command = [&options](const LiveWish& wish, const std::vector<Address>& servers,
-                                 int octree_depth) {
-            return command_of(options, wish, servers, octree_depth);
+        job.command = [&options](const LiveWish& wish, const std::vector<Address>& servers, const Cut& cut) {
+            return command_of(options, wish, servers, cut);
         };
         job.width = options.width;
         job.height = options.height;

@@ -33,7 +33,7 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
           // A display that does not take it is found out by the next frame.
           (void)machines_->tell_display(Note{topic, frame}, std::move(body));
       }),
-      drawing_{job_.scene->depth, job_.renderers, job_.cull, job_.shadows, job_.dynamic},
+      drawing_{job_.scene->cut, job_.renderers, job_.cull, job_.shadows, job_.dynamic},
       patience_(io) {
     if (job_.live) live_.emplace(*job_.live);
     use(job_.scene);
@@ -354,7 +354,7 @@ void ClusterRun::tell_state() {
     std::vector<Address> servers;
     for (const ServerId server : machines_->members()) servers.push_back(machines_->address(server));
     broadcast_.on_state(*live_, changing_ ? "changing the setup" : "",
-                        job_.command(shown, servers, job_.scene->depth));
+                        job_.command(shown, servers, job_.scene->cut));
 }
 
 // No frame is open, and none is begun until the director hears that the change is over.
@@ -364,14 +364,15 @@ Status ClusterRun::change_setup() {
     next_setup_ = *wanted;
     changing_ = true;
     tell_state();
-    // The client cuts the model first: the servers are told a depth.
+    // The client cuts the model first: the servers are told how.
     if (wanted->objects == live_->setup().objects) return on_cut(job_.scene);
     if (!cutter_) cutter_ = std::make_unique<WorkerThread>();
     // The task holds nothing alive: the run's end waits for it.
     cutter_->post([this, weak = weak_from_this(), scene = job_.scene, objects = wanted->objects] {
         std::shared_ptr<const ObjectSet> cut;  // null: no memory
         try {
-            cut = std::make_shared<const ObjectSet>(build_objects(scene->mesh, {std::nullopt, objects}));
+            cut = std::make_shared<const ObjectSet>(
+                build_objects(scene->mesh, {.objects = objects, .by = scene->cut.by}));
         } catch (const std::bad_alloc&) {
         }
         boost::asio::post(io_, [weak, cut] {
@@ -398,7 +399,7 @@ Status ClusterRun::on_cut(std::shared_ptr<const ObjectSet> scene) {
 // Of the change that is under way.
 RunDrawing ClusterRun::next_drawing(const ObjectSet& scene) const {
     RunDrawing next = drawing_;
-    next.octree_depth = scene.depth;
+    next.cut = scene.cut;
     next.renderers = next_setup_.renderers;
     next.cull = next_setup_.cull;
     return next;

@@ -42,8 +42,8 @@ struct ClusterJob {
     // then its start's.
     std::optional<LiveView::Settings> live;
     // The command line that draws a view, for people who look.
-    std::function<std::string(const LiveWish&, const std::vector<Address>& servers, int octree_depth)>
-        command = [](const auto&, const auto&, int) { return std::string(); };
+    std::function<std::string(const LiveWish&, const std::vector<Address>& servers, const Cut&)> command =
+        [](const auto&, const auto&, const auto&) { return std::string(); };
     int width = 1280;
     int height = 960;
     Rgb background{};

@@ -93,7 +93,8 @@ std::string session_note(const SessionFacts& facts, const LiveView* live, const 
 std::string objects_note(std::uint64_t generation, const ObjectSet& scene) {
     Json note{{"type", "objects"},
               {"generation", generation},
-              {"depth", scene.depth},
+              {"by", name_of(scene.cut.by)},
+              {"depth", scene.cut.by == ObjectsBy::kUniform ? Json(scene.cut.depth) : Json()},
               {"count", scene.objects.size()},
               {"boxes", nullptr}};
     if (scene.objects.size() <= kMaxBoxes) {

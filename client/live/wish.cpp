@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "common/scene/objects.h"
+
 namespace swath {
 namespace {
 
@@ -109,7 +111,7 @@ Result<Refusals> apply_wish(std::string_view text, std::uint32_t by, const WishL
     field("algorithm", [&](const Json& value) { return take_name(value, parse_algorithm, wish.algorithm); });
     field("against", [&](const Json& value) { return take_against(value, wish.against); });
     field("servers", [&](const Json& value) { return take_servers(value, limits.servers, wish.servers); });
-    field("objects", [&](const Json& value) { return take(value, 1, kMaxLiveObjects, wish.setup.objects); });
+    field("objects", [&](const Json& value) { return take(value, 1, kMaxObjectsAsked, wish.setup.objects); });
     field("renderer",
           [&](const Json& value) { return take_name(value, parse_renderers, wish.setup.renderers); });
     field("cull", [&](const Json& value) { return take_name(value, parse_cull_algorithm, wish.setup.cull); });

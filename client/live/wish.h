@@ -48,7 +48,6 @@ struct WishLimits {
     int max_width = 2560;
     int max_height = 1600;
 };
-inline constexpr std::size_t kMaxLiveObjects = 1'000'000;
 
 // Why fields of a wish are not had, by their names.
 using Refusals = std::map<std::string, std::string>;

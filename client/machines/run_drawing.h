@@ -8,7 +8,7 @@ namespace swath {
 // How the servers of a run draw: all alike, but that the renderers are dealt out to them in turn, by their
 // numbers. A server gets the smallest number that is free, in the order in which they join. A value.
 struct RunDrawing {
-    int octree_depth = 0;
+    Cut cut;
     std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // not empty
     CullAlgorithm cull = CullAlgorithm::kWide;
     bool shadows = false;
@@ -16,7 +16,7 @@ struct RunDrawing {
     bool operator==(const RunDrawing&) const = default;
 
     Drawing of(ServerId server) const {
-        return {octree_depth, renderers[index(server) % renderers.size()], cull, shadows, dynamic};
+        return {cut, renderers[index(server) % renderers.size()], cull, shadows, dynamic};
     }
 };
 

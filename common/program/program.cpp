@@ -36,9 +36,8 @@ void add_waiting_options(CLI::App& app, ProgramOptions& options) {
 }
 
 void add_threads_option(CLI::App& app, int& threads) {
-    app.add_option(
-           "--threads", threads,
-           "threads that draw, cast rays and cull beside the drawing one, per process [what the cores allow]")
+    app.add_option("--threads", threads,
+                   "threads that draw, cast rays and cull beside the first, per process [as cores allow]")
         ->envname("LP_NUM_THREADS")
         ->check(CLI::Range(0, 256));
 }

@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/geometry/morton.h"
+#include "common/scene/sah_objects.h"
 
 namespace swath {
 namespace {
@@ -14,15 +15,21 @@ namespace {
 constexpr int kCodeBits = 3 * kMaxOctreeDepth;
 static_assert(kMaxOctreeDepth == kMortonDepth);
 
+// The box of `count` triangles from `first` on.
+Box box_of(const Mesh& mesh, std::uint32_t first, std::uint32_t count) {
+    Box box;
+    for (std::size_t i = 3 * std::size_t{first}; i < 3 * (std::size_t{first} + count); ++i)
+        box.extend(mesh.vertices[mesh.indices[i]].position);
+    return box;
+}
+
 // Of each triangle, the Morton code of its centre.
 std::vector<MortonKey> morton_keys(const Mesh& mesh, const Box& box) {
     const glm::dvec3 min(box.min);
     const glm::dvec3 size = glm::dvec3(box.max) - min;
     std::vector<MortonKey> keys(mesh.triangle_count());
     for (std::size_t t = 0; t < keys.size(); ++t) {
-        Box triangle;
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            triangle.extend(mesh.vertices[mesh.indices[3 * t + corner]].position);
+        const Box triangle = box_of(mesh, static_cast<std::uint32_t>(t), 1);
         const glm::dvec3 centre = 0.5 * (glm::dvec3(triangle.min) + glm::dvec3(triangle.max));
         keys[t].code = morton_code(centre, min, size);
         keys[t].index = static_cast<std::uint32_t>(t);
@@ -30,7 +37,7 @@ std::vector<MortonKey> morton_keys(const Mesh& mesh, const Box& box) {
     return keys;
 }
 
-// By material, then by code; triangles of one code keep the model's order.
+// By material, then by code; of one code they keep their order.
 void sort(std::vector<MortonKey>& keys, const Mesh& mesh) {
     sort_by_code(keys);
     if (mesh.materials.empty()) return;
@@ -69,6 +76,20 @@ int choose_depth(const std::vector<MortonKey>& keys, const Mesh& mesh, const Gra
     return best;
 }
 
+// Puts keys in the order of sort() into that of the SAH octree's cells, whose numbers replace their codes.
+void sort_by_sah_cells(std::vector<MortonKey>& keys, const Mesh& mesh, const Box& box, std::size_t objects) {
+    std::vector<SahTriangle> triangles(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        triangles[i] = {box_of(mesh, keys[i].index, 1), keys[i].code, mesh.material(keys[i].index)};
+    const std::vector<std::uint32_t> cells = sah_cells(triangles, box, objects);
+    CHECK(cells.size() == keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        CHECK(cells[i] >> kMortonBits == 0u);
+        keys[i].code = cells[i];
+    }
+    sort(keys, mesh);
+}
+
 // The mesh with its triangles in the order of `keys` and its vertices in the order of their first use.
 Mesh reorder(const Mesh& mesh, const std::vector<MortonKey>& keys) {
     constexpr std::uint32_t kUnused = 0xffff'ffff;
@@ -92,14 +113,6 @@ Mesh reorder(const Mesh& mesh, const std::vector<MortonKey>& keys) {
     return result;
 }
 
-// The box of `count` triangles from `first` on.
-Box box_of(const Mesh& mesh, std::uint32_t first, std::uint32_t count) {
-    Box box;
-    for (std::size_t i = 3 * std::size_t{first}; i < 3 * (std::size_t{first} + count); ++i)
-        box.extend(mesh.vertices[mesh.indices[i]].position);
-    return box;
-}
-
 // Cuts the object's triangles, whose range is known, into leaves of even size.
 void add_leaves(ObjectSet& set, Object& object, std::uint32_t leaf_triangles) {
     const std::uint64_t count = object.triangle_count;
@@ -119,24 +132,58 @@ void add_leaves(ObjectSet& set, Object& object, std::uint32_t leaf_triangles) {
 
 }  // namespace
 
+std::string_view name_of(ObjectsBy by) { return by == ObjectsBy::kSah ? "sah" : "uniform"; }
+
+Result<ObjectsBy> parse_objects_by(std::string_view name) {
+    for (const ObjectsBy by : {ObjectsBy::kUniform, ObjectsBy::kSah})
+        if (name_of(by) == name) return by;
+    return fail("'{}' is not known; there are: uniform, sah", name);
+}
+
+Granularity granularity_of(const Cut& cut) {
+    Granularity granularity;
+    granularity.by = cut.by;
+    if (cut.by == ObjectsBy::kSah)
+        granularity.objects = cut.objects;
+    else
+        granularity.depth = cut.depth;
+    return granularity;
+}
+
+std::string to_string(const Cut& cut) {
+    return cut.by == ObjectsBy::kSah ? fmt::format("SAH octree, {} asked for", cut.objects)
+                                     : fmt::format("octree depth {}", cut.depth);
+}
+
 ObjectSet build_objects(Mesh mesh, const Granularity& granularity) {
     CHECK(mesh.triangle_count() > 0u);
     CHECK(mesh.triangle_count() <= kMaxTriangles);
     CHECK(granularity.depth.value_or(0) >= 0);
     CHECK(granularity.depth.value_or(0) <= kMaxOctreeDepth);
     CHECK(granularity.leaf_triangles > 0u);
+    if (granularity.by == ObjectsBy::kSah) {
+        CHECK(granularity.objects > 0u);
+        CHECK(granularity.depth.has_value() == false);
+    }
 
     ObjectSet set;
     set.bounds = bounds(mesh);
     std::vector<MortonKey> keys = morton_keys(mesh, set.bounds);
     sort(keys, mesh);
-    set.depth = choose_depth(keys, mesh, granularity);
+    // From here on a key's code is its cell's.
+    set.cut.by = granularity.by;
+    if (granularity.by == ObjectsBy::kSah) {
+        set.cut.objects = granularity.objects;
+        sort_by_sah_cells(keys, mesh, set.bounds, granularity.objects);
+    } else {
+        set.cut.depth = choose_depth(keys, mesh, granularity);
+        const int shift = kCodeBits - 3 * set.cut.depth;
+        for (MortonKey& key : keys) key.code >>= shift;
+    }
     set.mesh = reorder(mesh, keys);
 
-    const int shift = kCodeBits - 3 * set.depth;
     const auto begins = [&](std::size_t t) {
-        return t == 0 || keys[t].code >> shift != keys[t - 1].code >> shift ||
-               set.mesh.material(t) != set.mesh.material(t - 1);
+        return t == 0 || keys[t].code != keys[t - 1].code || set.mesh.material(t) != set.mesh.material(t - 1);
     };
     for (std::size_t t = 0; t < keys.size(); ++t) {
         if (begins(t)) {

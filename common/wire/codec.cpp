@@ -44,7 +44,8 @@ void put_exchanges(const std::vector<Exchange>& exchanges,
 // A ServerSetup's or a Reconfigure's.
 template <class M>
 void put_drawing(const Drawing& drawing, M& out) {
-    out.set_octree_depth(static_cast<std::uint32_t>(drawing.octree_depth));
+    out.set_octree_depth(static_cast<std::uint32_t>(drawing.cut.depth));
+    out.set_sah_objects(static_cast<std::uint32_t>(drawing.cut.objects));
     out.set_renderer(static_cast<std::uint32_t>(drawing.renderer));
     out.set_cull(static_cast<std::uint32_t>(drawing.cull) + 1);
     out.set_shadows(drawing.shadows);
@@ -298,11 +299,17 @@ template <class M>
 Result<Drawing> get_drawing(const M& in) {
     if (in.octree_depth() > static_cast<std::uint32_t>(kMaxOctreeDepth))
         return fail("octree_depth: {}, the limit is {}", in.octree_depth(), kMaxOctreeDepth);
+    if (in.sah_objects() > kMaxObjectsAsked)
+        return fail("sah_objects: {}, the limit is {}", in.sah_objects(), kMaxObjectsAsked);
+    if (in.sah_objects() > 0 && in.octree_depth() > 0)
+        return fail("sah_objects: {}, and an octree_depth too", in.sah_objects());
     if (in.renderer() < 1 || in.renderer() > kRendererKindCount)
         return fail("renderer: {} is none", in.renderer());
     if (in.cull() < 1 || in.cull() > kCullAlgorithmCount) return fail("cull: {} is none", in.cull());
-    return Drawing{static_cast<int>(in.octree_depth()), static_cast<RendererKind>(in.renderer()),
-                   static_cast<CullAlgorithm>(in.cull() - 1), in.shadows(), in.dynamic()};
+    Cut cut{ObjectsBy::kUniform, static_cast<int>(in.octree_depth())};
+    if (in.sah_objects() > 0) cut = {ObjectsBy::kSah, 0, in.sah_objects()};
+    return Drawing{cut, static_cast<RendererKind>(in.renderer()), static_cast<CullAlgorithm>(in.cull() - 1),
+                   in.shadows(), in.dynamic()};
 }
 
 Result<Message> get_server_setup(const pb::ServerSetup& in) {

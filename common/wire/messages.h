@@ -14,6 +14,7 @@
 #include "common/image/pixel_codec.h"
 #include "common/render/renderer_kind.h"
 #include "common/scene/model_blob.h"
+#include "common/scene/objects.h"
 #include "common/timeline/timeline.h"
 
 namespace swath {
@@ -55,7 +56,7 @@ struct Pong {
 
 // How a server cuts the model, draws and culls.
 struct Drawing {
-    int octree_depth = 0;
+    Cut cut;
     RendererKind renderer = RendererKind::kOsmesa;
     CullAlgorithm cull = CullAlgorithm::kWide;
     // Of a ray caster (RendererSetup).

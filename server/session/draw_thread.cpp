@@ -25,11 +25,11 @@ DrawThread::~DrawThread() {
 // Renderer and culling are of a scene, so a new one means new ones. The old renderer goes first: a thread has
 // no two.
 Status DrawThread::configure(const Drawing& drawing) {
-    const bool cut = drawing.octree_depth != scene_.depth;
+    const bool cut = drawing.cut != scene_.cut;
     if (cut || renderer_of(drawing) != renderer_of(drawing_)) renderer_.reset();
     if (cut) {
         cull_.reset();
-        scene_ = build_objects(std::move(scene_.mesh), {drawing.octree_depth, 0});
+        scene_ = build_objects(std::move(scene_.mesh), granularity_of(drawing.cut));
     }
     if (!cull_ || drawing.cull != drawing_.cull) {
         cull_.reset();
@@ -60,7 +60,7 @@ Loaded DrawThread::loaded() const {
 void DrawThread::load(Mesh mesh, const Drawing& drawing, std::function<void(Result<Loaded>)> done) {
     thread_.post([this, mesh = std::make_shared<Mesh>(std::move(mesh)), drawing, done = std::move(done)] {
         try {
-            scene_ = build_objects(std::move(*mesh), {drawing.octree_depth, 0});
+            scene_ = build_objects(std::move(*mesh), granularity_of(drawing.cut));
             if (const auto status = configure(drawing); !status) return done(tl::unexpected(status.error()));
             done(loaded());
         } catch (const std::bad_alloc&) {

@@ -83,8 +83,13 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
         values(app.add_option("--octree-depth", depths_, "that cuts the model into objects [4]" + list)
                    ->check(CLI::Range(0, kMaxOctreeDepth)));
     values(app.add_option("--objects", objects_, "... or about how many objects to cut it into" + list)
-               ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000})))
+               ->check(CLI::Range(std::size_t{1}, kMaxObjectsAsked)))
         ->excludes(depths);
+    app.add_option(
+           "--objects-by", objects_by_,
+           "what objects are: cells of a uniform octree, or with sah of one by the surface area heuristic, "
+           "about --objects of them [1500]")
+        ->capture_default_str();
     app.add_option("--path", path_.path, "of the camera: random (seeded, the paper's), orbit, or a FILE")
         ->capture_default_str();
     app.add_option("--frames", path_.frames, "of a path; full mode takes about ten to settle")
@@ -131,9 +136,16 @@ Result<ScenarioOptions> ScenarioFlags::read() const {
         if (!size) return tl::unexpected(size.error());
         add_once(options.sizes, *size);
     }
+    const auto by = parse_objects_by(objects_by_);
+    if (!by) return fail_in("--objects-by", by.error());
+    const bool sah = *by == ObjectsBy::kSah;
+    if (sah && !depths_.empty())
+        return fail("--octree-depth: a SAH octree has no one depth; with --objects-by sah say --objects");
     for (const int depth : depths_) options.granularities.push_back({depth, 0});
-    for (const std::size_t objects : objects_) options.granularities.push_back({std::nullopt, objects});
-    if (options.granularities.empty()) options.granularities.push_back({4, 0});
+    for (const std::size_t objects : objects_)
+        options.granularities.push_back({.objects = objects, .by = *by});
+    if (options.granularities.empty())
+        options.granularities.push_back(sah ? Granularity{.by = *by} : Granularity{4, 0});
     options.path = path_;
     options.frames_in_flight = frames_in_flight_;
     options.threads = threads_or_all(threads_);

@@ -44,6 +44,7 @@ class ScenarioFlags {
     std::vector<std::string> sizes_{"1280x960"};
     std::vector<int> depths_;
     std::vector<std::size_t> objects_;
+    std::string objects_by_ = "uniform";
     PathSpec path_;
     std::size_t frames_in_flight_ = 3;
     std::size_t threads_ = 0;

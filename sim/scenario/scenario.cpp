@@ -100,14 +100,16 @@ Status Scenario::add_model(const ModelName& name, const ScenarioOptions& options
     for (const Granularity& granularity : options.granularities) {
         const StudyModel& model =
             models_.emplace_back(StudyModel{name.name, build_objects(*mesh, granularity)});
-        const auto same_depth = [&](const auto& cut) { return cut.first->scene.depth == model.scene.depth; };
-        if (std::ranges::any_of(cuts, same_depth)) {  // of several numbers of objects
+        const auto same_cut = [&](const auto& cut) { return cut.first->scene.cut == model.scene.cut; };
+        if (std::ranges::any_of(cuts, same_cut)) {  // of several numbers of objects
             models_.pop_back();
             continue;
         }
-        add_settings(fmt::format("{}: {} objects at depth {}", name.name, model.scene.objects.size(),
-                                 model.scene.depth));
-        cuts.emplace_back(&model, fmt::format("depth {}", model.scene.depth));
+        const Cut& cut = model.scene.cut;
+        const std::string which = cut.by == ObjectsBy::kSah ? fmt::format("SAH {}", cut.objects)
+                                                            : fmt::format("depth {}", cut.depth);
+        add_settings(fmt::format("{}: {} objects, {}", name.name, model.scene.objects.size(), which));
+        cuts.emplace_back(&model, which);
     }
     for (const PictureSize& size : options.sizes) {
         auto paths = make_paths(options.path, models_.back().scene.bounds, size.width, size.height);

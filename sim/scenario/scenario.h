@@ -12,8 +12,9 @@ namespace swath::sim {
 
 // Everything that ScenarioOptions name, loaded, and the experiments that they combine to: by model, hardware,
 // size, granularity, algorithm and servers. Experiments point into it. Where there are several sizes,
-// granularities or profiles, model names say which: "dragon (depth 5, 2560x1920)". No two experiments have
-// the same label: granularities that come to the same depth are one, all else of one name is an error.
+// granularities or profiles, model names say which: "dragon (depth 5, 2560x1920)", "dragon (SAH 1500)". No
+// two experiments have the same label: granularities that come to the same depth are one, all else of one
+// name is an error.
 class Scenario {
   public:
     static Result<Scenario> load(const ScenarioOptions& options);

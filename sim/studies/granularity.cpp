@@ -23,6 +23,19 @@ Result<std::list<StudyModel>> cuts(const StudySubject& subject) {
     return models;
 }
 
+// The same numbers of objects by a SAH octree, as far as it can have them.
+Result<std::list<StudyModel>> sah_cuts(const StudySubject& subject, const std::list<StudyModel>& uniform) {
+    std::list<StudyModel> models;
+    for (const StudyModel& other : uniform) {
+        auto model = load_study_model(subject.model.name, subject.file,
+                                      {.objects = other.scene.objects.size(), .by = ObjectsBy::kSah});
+        if (!model) return tl::unexpected(model.error());
+        model->name = fmt::format("{} ({} asked for by SAH)", subject.model.name, model->scene.cut.objects);
+        models.push_back(std::move(*model));
+    }
+    return models;
+}
+
 Plot figure_12(const StudyContext& context, const std::string& name, const std::list<StudyModel>& models) {
     Plot plot{fmt::format("Client, {}", name), "Objects", "Time (ms a frame, 64 servers)", false, {}};
     for (const Algorithm algorithm : kAlgorithms) {
@@ -53,6 +66,28 @@ Plot figure_13(const Results& results, const std::string& name, const std::list<
             for (const StudyModel& model : models)
                 series.points.emplace_back(model.scene.objects.size(),
                                            overhead(results, algorithm, model, servers));
+            plot.series.push_back(std::move(series));
+        }
+        ++colour;
+    }
+    return plot;
+}
+
+// What the SAH octree's objects make of the hybrid's overhead.
+Plot figure_sah(const Results& results, const std::string& name, const std::list<StudyModel>& uniform,
+                const std::list<StudyModel>& sah) {
+    Plot plot{fmt::format("Overhead of servers by cut, {}", name),
+              "Objects",
+              "Overhead of the hybrid (% of ideal rendering)",
+              true,
+              {}};
+    std::size_t colour = 0;
+    for (const auto& [cut, models] : {std::pair{"uniform", &uniform}, std::pair{"SAH", &sah}}) {
+        for (const auto& [servers, style] : {std::pair{64u, Style::kLine}, std::pair{16u, Style::kDashed}}) {
+            Series series{fmt::format("{}, {} servers", cut, servers), {}, style, colour};
+            for (const StudyModel& model : *models)
+                series.points.emplace_back(model.scene.objects.size(),
+                                           overhead(results, Algorithm::kHybrid, model, servers));
             plot.series.push_back(std::move(series));
         }
         ++colour;
@@ -92,10 +127,13 @@ Status granularity(StudyContext& context) {
     const std::string& name = subject.model.name;
     const auto models = cuts(subject);
     if (!models) return tl::unexpected(models.error());
+    const auto sah_models = sah_cuts(subject, *models);
+    if (!sah_models) return tl::unexpected(sah_models.error());
     std::vector<Experiment> experiments;
-    for (const StudyModel& model : *models)
-        std::ranges::move(context.experiments(subject, model, kAlgorithms, kPaperWidth, kPaperHeight),
-                          std::back_inserter(experiments));
+    for (const auto* cut : {&*models, &*sah_models})
+        for (const StudyModel& model : *cut)
+            std::ranges::move(context.experiments(subject, model, kAlgorithms, kPaperWidth, kPaperHeight),
+                              std::back_inserter(experiments));
     const Results results = context.run(std::move(experiments), "granularity");
     if (auto status = context.write("granularity.csv", to_csv(results.rows())); !status) return status;
 
@@ -114,15 +152,25 @@ Status granularity(StudyContext& context) {
             fmt::format("Figure 13 for {}: what servers do beyond their share of ideal rendering.", name));
         !status)
         return status;
-    PageTable table{{"objects", "servers", "hybrid", "sort-first", "sort-last"}, {}};
-    for (const StudyModel& model : *models) {
-        for (const std::size_t servers : kPaperServers) {
-            const auto cell = [&](Algorithm algorithm) {
-                return fmt::format("{:.0f} %", overhead(results, algorithm, model, servers));
-            };
-            table.rows.push_back({std::to_string(model.scene.objects.size()), std::to_string(servers),
-                                  cell(Algorithm::kHybrid), cell(Algorithm::kMahd),
-                                  cell(Algorithm::kSortLast)});
+    if (auto status = context.figure(
+            figure_sah(results, name, *models, *sah_models), "granularity_sah",
+            fmt::format("Not in the paper: the hybrid with objects that are leaves of a SAH octree, beside "
+                        "cells of the uniform one, {}.",
+                        name));
+        !status)
+        return status;
+    PageTable table{{"objects", "cut", "servers", "hybrid", "sort-first", "sort-last"}, {}};
+    for (const auto* cut : {&*models, &*sah_models}) {
+        for (const StudyModel& model : *cut) {
+            for (const std::size_t servers : kPaperServers) {
+                const auto cell = [&](Algorithm algorithm) {
+                    return fmt::format("{:.0f} %", overhead(results, algorithm, model, servers));
+                };
+                table.rows.push_back({std::to_string(model.scene.objects.size()),
+                                      std::string(name_of(model.scene.cut.by)), std::to_string(servers),
+                                      cell(Algorithm::kHybrid), cell(Algorithm::kMahd),
+                                      cell(Algorithm::kSortLast)});
+            }
         }
     }
     page.table(table, fmt::format("Overhead over ideal rendering, {}.", name));

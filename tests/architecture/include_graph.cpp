@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     {"common/base", {}},
     {"common/geometry", {"common/base"}},
-    {"common/scene", {"common/base", "common/geometry"}},
-    {"common/octree", {"common/base", "common/geometry", "common/scene"}},
+    {"common/octree", {"common/base", "common/geometry"}},
+    {"common/scene", {"common/base", "common/geometry", "common/octree"}},
     // A plan names objects by id: it knows nothing of the model.
     {"common/plan", {"common/base", "common/geometry"}},
     {"common/image", {"common/base", "common/geometry"}},

@@ -22,7 +22,7 @@ ServerSetup ServerTest::setup(std::size_t server) const {
     made.model = cache_.path_of("no such model.ply");
     made.digest = digest(blob_.bytes());
     made.blob_bytes = blob_.size();
-    made.drawing.octree_depth = 2;
+    made.drawing.cut.depth = 2;
     made.frames_in_flight = 2;
     return made;
 }

@@ -305,7 +305,7 @@ TEST_F(ServerTest, ServesTheNextClientAfterOneThatVanished) {
 TEST_F(ServerTest, CutsTheModelAnewBetweenFrames) {
     const auto one = connected_client();
     Drawing drawing = setup().drawing;
-    drawing.octree_depth = 0;
+    drawing.cut.depth = 0;
     drawing.cull = CullAlgorithm::kNone;
     one->send(Reconfigure{drawing});
     const Ready ready = one->expect<Ready>();
@@ -337,7 +337,7 @@ TEST_F(ServerTest, GoesOnAsBeforeWhenItCannotDrawDifferently) {
     const auto one = connected_client();
     int made = 0;
     before_renderer_ = [&] { return made++ == 0 ? Status(fail("EGL: no surfaceless platform")) : Status(); };
-    one->send(Reconfigure{{0, RendererKind::kEgl, CullAlgorithm::kWide}});
+    one->send(Reconfigure{{{}, RendererKind::kEgl, CullAlgorithm::kWide}});
     const Ready ready = one->expect<Ready>();
     EXPECT_EQ(ready.refused, "EGL: no surfaceless platform");
     EXPECT_EQ(ready.objects, objects_);
@@ -349,7 +349,7 @@ TEST_F(ServerTest, GoesOnAsBeforeWhenItCannotDrawDifferently) {
 TEST_F(ServerTest, EndsTheSessionWhenItCannotGoBackEither) {
     const auto one = connected_client();
     before_renderer_ = [] { return Status(fail("no more memory")); };
-    one->send(Reconfigure{{0, RendererKind::kEgl, CullAlgorithm::kWide}});
+    one->send(Reconfigure{{{}, RendererKind::kEgl, CullAlgorithm::kWide}});
     EXPECT_EQ(one->ending(), "no more memory");
 }
 
@@ -367,7 +367,7 @@ TEST_F(ServerTest, RefusesToChangeOutOfTurn) {
     const auto ending_while_changing = [&](const Message& message) {
         const auto one = connected_client();
         *slow = true;
-        one->send(Reconfigure{{2, RendererKind::kEgl, CullAlgorithm::kWide}});
+        one->send(Reconfigure{{{.depth = 2}, RendererKind::kEgl, CullAlgorithm::kWide}});
         one->send(message);
         return one->ending();
     };

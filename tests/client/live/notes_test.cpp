@@ -106,6 +106,9 @@ TEST(Notes, OfTheSessionSayWhatThereIsToChooseFrom) {
 
 TEST(Notes, OfObjectsHaveTheirBoxes) {
     const ObjectSet scene = build_objects(test::cube(), {2, 0});
+    const ObjectSet by_sah = build_objects(test::cube(), {.objects = 3, .by = ObjectsBy::kSah});
+    EXPECT_EQ(Json::parse(objects_note(7, by_sah))["by"], "sah");
+    EXPECT_TRUE(Json::parse(objects_note(7, by_sah))["depth"].is_null());
     const Json note = Json::parse(objects_note(3, scene));
     EXPECT_EQ(note["generation"], 3);
     EXPECT_EQ(note["depth"], 2);

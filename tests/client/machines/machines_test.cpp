@@ -313,7 +313,7 @@ TEST_F(MachinesTest, ChangeTogetherOrNotAtAll) {
         EXPECT_EQ(second->expect<Reconfigure>().drawing, drawing.of(server_id(1)));
     };
     const Drawing before{};
-    const RunDrawing deeper{3, {RendererKind::kEgl, RendererKind::kRaycast}, CullAlgorithm::kNone};
+    const RunDrawing deeper{{.depth = 3}, {RendererKind::kEgl, RendererKind::kRaycast}, CullAlgorithm::kNone};
     change(deeper, 9);
     first_->send(Ready{9, 100, "EGL"});
     second->send(Ready{7, 100, "OSMesa", "no EGL here"});
@@ -335,10 +335,11 @@ TEST_F(MachinesTest, ChangeTogetherOrNotAtAll) {
 
 TEST_F(MachinesTest, AreDealtTheirRenderersInTurnByTheirNumbers) {
     const RunDrawing mixed{
-        2, {RendererKind::kRaycast, RendererKind::kOsmesa}, CullAlgorithm::kNone, true, false};
+        {.depth = 2}, {RendererKind::kRaycast, RendererKind::kOsmesa}, CullAlgorithm::kNone, true, false};
     EXPECT_EQ(mixed.of(server_id(0)),
-              (Drawing{2, RendererKind::kRaycast, CullAlgorithm::kNone, true, false}));
-    EXPECT_EQ(mixed.of(server_id(3)), (Drawing{2, RendererKind::kOsmesa, CullAlgorithm::kNone, true, false}));
+              (Drawing{{.depth = 2}, RendererKind::kRaycast, CullAlgorithm::kNone, true, false}));
+    EXPECT_EQ(mixed.of(server_id(3)),
+              (Drawing{{.depth = 2}, RendererKind::kOsmesa, CullAlgorithm::kNone, true, false}));
     run();
     EXPECT_TRUE(machines_->reconfigure(mixed, 7, [this](const std::string&) {
         log_.emplace_back("changed");
@@ -356,8 +357,8 @@ TEST_F(MachinesTest, BringNewcomersUpToDateWhenTheDrawingHasChangedMeanwhile) {
     run();
     list({address(one_), address(two_)});
     auto slow = std::make_unique<Peer>(loop_, two_.next(), hello_of(Role::kServer));
-    EXPECT_EQ(slow->expect<ServerSetup>().drawing.octree_depth, 0);
-    EXPECT_TRUE(machines_->reconfigure({3, {RendererKind::kOsmesa}, CullAlgorithm::kWide}, 9,
+    EXPECT_EQ(slow->expect<ServerSetup>().drawing.cut.depth, 0);
+    EXPECT_TRUE(machines_->reconfigure({{.depth = 3}, {RendererKind::kOsmesa}, CullAlgorithm::kWide}, 9,
                                        [this](const std::string&) {
                                            log_.emplace_back("changed");
                                            return Status();
@@ -366,7 +367,7 @@ TEST_F(MachinesTest, BringNewcomersUpToDateWhenTheDrawingHasChangedMeanwhile) {
     first_->send(Ready{9, 100, "a renderer"});
     EXPECT_EQ(said(), "changed");
     slow->send(Ready{7, 100, "a renderer"});  // as it was told at first
-    EXPECT_EQ(slow->expect<Reconfigure>().drawing.octree_depth, 3);
+    EXPECT_EQ(slow->expect<Reconfigure>().drawing.cut.depth, 3);
     slow->send(Ready{9, 100, "a renderer"});
     slow->expect<Connect>();
     slow->send(Connected{});

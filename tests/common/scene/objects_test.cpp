@@ -56,7 +56,7 @@ std::array<int, 3> cell_of(const ObjectSet& set, std::size_t triangle) {
         double low = double{set.bounds.min[axis]};
         double high = double{set.bounds.max[axis]};
         const double centre = (double{box.min[axis]} + double{box.max[axis]}) / 2;
-        for (int level = 0; level < set.depth; ++level) {
+        for (int level = 0; level < set.cut.depth; ++level) {
             const double middle = (low + high) / 2;
             const bool upper = high > low && centre >= middle;
             (upper ? low : high) = middle;
@@ -70,7 +70,7 @@ std::array<int, 3> cell_of(const ObjectSet& set, std::size_t triangle) {
 TEST(ObjectsTest, objects_cover_all_triangles_in_contiguous_ranges) {
     for (const int depth : {0, 1, 2, 4, 7, 10}) {
         const ObjectSet set = at_depth(test::triangle_soup(3000, 7), depth);
-        EXPECT_EQ(set.depth, depth);
+        EXPECT_EQ(set.cut.depth, depth);
         std::uint32_t next = 0;
         for (const Object& object : set.objects) {
             EXPECT_EQ(object.first_triangle, next);
@@ -182,7 +182,7 @@ TEST(ObjectsTest, a_single_point_is_one_object) {
     Mesh mesh = test::cube(0);
     const ObjectSet set = by_count(mesh, 100);
     EXPECT_EQ(set.objects.size(), 1u);
-    EXPECT_EQ(set.depth, 0);
+    EXPECT_EQ(set.cut.depth, 0);
 }
 
 TEST(ObjectsTest, the_largest_and_the_smallest_coordinates_are_cut_alike) {
@@ -205,7 +205,7 @@ TEST(ObjectsTest, a_number_of_objects_picks_the_depth_that_comes_closest) {
         const auto best = std::min_element(counts.begin(), counts.end(), [&](std::size_t a, std::size_t b) {
             return distance(a) < distance(b);
         });
-        EXPECT_EQ(by_count(mesh, wish).depth, best - counts.begin()) << "wish " << wish;
+        EXPECT_EQ(by_count(mesh, wish).cut.depth, best - counts.begin()) << "wish " << wish;
     }
 }
 
@@ -218,9 +218,9 @@ TEST(ObjectsTest, the_shallower_of_two_equally_close_depths_is_picked) {
             mesh.vertices.emplace_back();
             mesh.vertices.back().position = corner;
         }
-    EXPECT_EQ(by_count(mesh, 2).depth, 0);
-    EXPECT_EQ(by_count(mesh, 3).depth, 1);
-    EXPECT_EQ(by_count(mesh, 1000).depth, 1);
+    EXPECT_EQ(by_count(mesh, 2).cut.depth, 0);
+    EXPECT_EQ(by_count(mesh, 3).cut.depth, 1);
+    EXPECT_EQ(by_count(mesh, 1000).cut.depth, 1);
 }
 
 TEST(ObjectsTest, the_same_mesh_gives_the_same_objects) {
@@ -271,7 +271,7 @@ TEST(ObjectsTest, a_number_of_objects_counts_cells_of_each_material) {
             return std::abs(count - static_cast<std::ptrdiff_t>(wish));
         };
         for (int depth = 0; depth <= kMaxOctreeDepth; ++depth)
-            EXPECT_GE(distance(depth), distance(set.depth)) << wish << " at " << depth;
+            EXPECT_GE(distance(depth), distance(set.cut.depth)) << wish << " at " << depth;
     }
 }
 
@@ -314,7 +314,7 @@ TEST(ObjectsTest, the_dragon_has_1259_objects_at_depth_4) {
     const ObjectSet set = at_depth(*dragon, 4);
     EXPECT_EQ(set.objects.size(), 1259u);
     EXPECT_EQ(set.mesh.triangle_count(), 871'414u);
-    EXPECT_EQ(build_objects(*std::move(dragon), {}).depth, 4);
+    EXPECT_EQ(build_objects(*std::move(dragon), {}).cut.depth, 4);
 }
 
 }  // namespace

@@ -85,6 +85,8 @@ TEST(WireLimit, OfServerSetup) {
                  in + "digest: 31 bytes where 32 are expected");
     setup.expect([](auto& m) { m.set_octree_depth(kMaxOctreeDepth + 1); },
                  in + "octree_depth: 11, the limit is 10");
+    setup.expect([](auto& m) { m.set_sah_objects(1'000'001); },
+                 in + "sah_objects: 1000001, the limit is 1000000");
     setup.expect([](auto& m) { m.set_renderer(0); }, in + "renderer: 0 is none");
     setup.expect([](auto& m) { m.set_renderer(4); }, in + "renderer: 4 is none");
     setup.expect([](auto& m) { m.set_cull(0); }, in + "cull: 0 is none");
@@ -133,6 +135,14 @@ TEST(WireLimit, OfReconfigure) {
     const Table<pb::Reconfigure> drawing(Reconfigure{}, &pb::Head::mutable_reconfigure);
     const std::string in = "a garbled reconfigure message: ";
     drawing.expect([](auto& m) { m.set_octree_depth(11); }, in + "octree_depth: 11, the limit is 10");
+    drawing.expect([](auto& m) { m.set_sah_objects(1'000'001); },
+                   in + "sah_objects: 1000001, the limit is 1000000");
+    drawing.expect(
+        [](auto& m) {
+            m.set_octree_depth(1);
+            m.set_sah_objects(2);
+        },
+        in + "sah_objects: 2, and an octree_depth too");
     drawing.expect([](auto& m) { m.set_renderer(4); }, in + "renderer: 4 is none");
     drawing.expect([](auto& m) { m.set_cull(0); }, in + "cull: 0 is none");
 }

@@ -95,7 +95,9 @@ class Maker {
         return {u64(), format, 1 + below(kMaxFramesInFlight), below(2) == 0};
     }
     Drawing drawing() {
-        return {static_cast<int>(below(kMaxOctreeDepth + 1)), kRendererKinds[below(kRendererKindCount)],
+        const Cut uniform{ObjectsBy::kUniform, static_cast<int>(below(kMaxOctreeDepth + 1)), 0};
+        const Cut sah{ObjectsBy::kSah, 0, 1 + below(kMaxObjectsAsked)};
+        return {below(2) == 0 ? uniform : sah, kRendererKinds[below(kRendererKindCount)],
                 static_cast<CullAlgorithm>(below(kCullAlgorithmCount)), below(2) == 0, below(2) == 0};
     }
     Connect connect() {

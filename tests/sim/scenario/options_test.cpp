@@ -45,6 +45,19 @@ TEST(ScenarioFlags, HaveThePapersDefaults) {
     EXPECT_GE(options->threads, 1u);
 }
 
+TEST(ScenarioFlags, CutBySahIntoSoManyObjects) {
+    const auto few = options_of("--model m --objects-by sah --objects 100,200");
+    ASSERT_TRUE(few) << few.error().message;
+    ASSERT_EQ(few->granularities.size(), 2u);
+    EXPECT_EQ(few->granularities[1].objects, 200u);
+    EXPECT_EQ(few->granularities[1].by, ObjectsBy::kSah);
+    const auto unsaid = options_of("--model m --objects-by sah");
+    ASSERT_TRUE(unsaid) << unsaid.error().message;
+    ASSERT_EQ(unsaid->granularities.size(), 1u);
+    EXPECT_EQ(unsaid->granularities[0].depth, std::nullopt);
+    EXPECT_EQ(unsaid->granularities[0].objects, 1500u);
+}
+
 TEST(ScenarioFlags, TakeListsAndEachValueOnce) {
     const auto options = options_of(
         "--model a=x.ply --model b=y.ply --algorithm sort-last,hybrid,sort-last --servers 8,1,8,1024 "
@@ -99,6 +112,8 @@ TEST(ScenarioFlags, RefuseNumbersOutOfTheirLimits) {
                                     "--in-flight 0",
                                     "--in-flight 9",
                                     "--octree-depth 11",
+                                    "--objects-by kd",
+                                    "--objects-by sah --octree-depth 3",
                                     "--octree-depth -1",
                                     "--objects 0",
                                     "--threads 0",

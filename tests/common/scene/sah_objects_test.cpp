@@ -1,0 +1,110 @@
+#include "common/scene/sah_objects.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include "common/geometry/morton.h"
+#include "common/scene/objects.h"
+#include "tests/support/models.h"
+
+namespace swath {
+namespace {
+
+Mesh soup(std::uint32_t materials) {
+    Mesh mesh = test::triangle_soup(3000, 5);
+    for (std::size_t t = 0; t < mesh.triangle_count() && materials > 1; ++t)
+        mesh.materials.push_back(static_cast<std::uint32_t>(t * 7 % materials));
+    return mesh;
+}
+
+ObjectSet by_sah(Mesh mesh, std::size_t objects) {
+    return build_objects(std::move(mesh), {.objects = objects, .by = ObjectsBy::kSah});
+}
+
+TEST(SahCells, HoldTrianglesOfOneCodeTogetherAndAreNumberedWithoutGaps) {
+    std::mt19937 random(3);
+    std::vector<SahTriangle> triangles;
+    for (int i = 0; i < 2000; ++i) {
+        const auto code = static_cast<std::uint32_t>(random() % 500) << 21;
+        triangles.push_back({{glm::vec3(0), glm::vec3(1)}, code, static_cast<std::uint32_t>(random() % 3)});
+    }
+    for (const std::size_t objects : {1u, 2u, 60u, 1000u, 100'000u}) {
+        const auto cells = sah_cells(triangles, {glm::vec3(0), glm::vec3(1)}, objects);
+        ASSERT_EQ(cells.size(), triangles.size());
+        std::map<std::uint32_t, std::uint32_t> cell_of;
+        std::vector<bool> there(triangles.size());
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            ASSERT_LT(cells[i], triangles.size());
+            there[cells[i]] = true;
+            EXPECT_EQ(cell_of.try_emplace(triangles[i].code, cells[i]).first->second, cells[i]);
+        }
+        const auto count = std::ranges::max(cells) + std::size_t{1};
+        EXPECT_EQ(std::ranges::count(there, true), static_cast<std::ptrdiff_t>(count));
+    }
+}
+
+TEST(SahObjects, AreRangesOfTrianglesByMaterialOfAboutTheNumberAskedFor) {
+    for (const std::uint32_t materials : {1u, 3u})
+        for (const std::size_t asked : {1u, 10u, 100u, 700u}) {
+            const ObjectSet set = by_sah(soup(materials), asked);
+            EXPECT_EQ(set.cut, (Cut{ObjectsBy::kSah, 0, asked}));
+            EXPECT_GE(set.objects.size(), std::max<std::size_t>(asked / 2, 1)) << asked;
+            EXPECT_LE(set.objects.size(), 2 * asked + 8 * materials) << asked;
+            std::uint32_t next = 0;
+            std::uint32_t material = 0;
+            for (const Object& object : set.objects) {
+                EXPECT_EQ(object.first_triangle, next);
+                EXPECT_GT(object.triangle_count, 0u);
+                EXPECT_GE(object.material, material);
+                material = object.material;
+                for (std::uint32_t t = 0; t < object.triangle_count; ++t)
+                    EXPECT_EQ(set.mesh.material(next + t), object.material);
+                next += object.triangle_count;
+            }
+            EXPECT_EQ(next, set.mesh.triangle_count());
+        }
+}
+
+// A server cuts what it has anew, a newcomer the model: both must have the same.
+TEST(SahObjects, AreTheSameWhateverTheModelWasCutIntoBefore) {
+    const std::vector<Granularity> steps{{.objects = 40, .by = ObjectsBy::kSah},
+                                         {4, 0},
+                                         {.objects = 900, .by = ObjectsBy::kSah},
+                                         {.objects = 5, .by = ObjectsBy::kSah},
+                                         {0, 0}};
+    const Mesh mesh = soup(3);
+    Mesh last = mesh;
+    for (const Granularity& step : steps) {
+        const ObjectSet direct = build_objects(mesh, step);
+        ObjectSet again = build_objects(std::move(last), step);
+        EXPECT_EQ(again.mesh, direct.mesh);
+        EXPECT_EQ(again.objects, direct.objects);
+        EXPECT_EQ(again.leaves, direct.leaves);
+        EXPECT_EQ(build_objects(mesh, granularity_of(direct.cut)).objects, direct.objects);
+        last = std::move(again.mesh);
+    }
+}
+
+TEST(SahObjects, OfATriangleOrOfManyInOnePlaceAreOne) {
+    Mesh one = test::cube();
+    one.indices.resize(3);
+    EXPECT_EQ(by_sah(one, 1000).objects.size(), 1u);
+    for (int i = 0; i < 100; ++i)
+        for (int k = 0; k < 3; ++k) one.indices.push_back(one.indices[static_cast<std::size_t>(k)]);
+    EXPECT_EQ(by_sah(one, 1000).objects.size(), 1u);
+}
+
+TEST(ObjectsBy, HaveNames) {
+    EXPECT_EQ(parse_objects_by("sah"), ObjectsBy::kSah);
+    EXPECT_EQ(parse_objects_by("uniform"), ObjectsBy::kUniform);
+    EXPECT_THAT(parse_objects_by("kd").error().message, testing::HasSubstr("uniform, sah"));
+    EXPECT_EQ(to_string(Cut{ObjectsBy::kUniform, 4, 0}), "octree depth 4");
+    EXPECT_EQ(to_string(Cut{ObjectsBy::kSah, 0, 1500}), "SAH octree, 1500 asked for");
+}
+
+}  // namespace
+}  // namespace swath
