@@ -1,0 +1,109 @@
+#include "common/raycast/cast_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+#include "common/raycast/packets.h"
+
+namespace swath {
+namespace {
+
+// The power of two that brings every coordinate of the box to at most 1.
+float scale_for(const Box& box) {
+    float largest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        largest = std::max({largest, std::abs(box.min[axis]), std::abs(box.max[axis])});
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    return std::ldexp(1.0f, std::clamp(-exponent, -120, 120));
+}
+
+void set_bits(std::vector<std::uint32_t>& bits, std::size_t begin, std::size_t end) {
+    for (; begin < end && begin % 32 != 0; ++begin) bits[begin / 32] |= 1u << begin % 32;
+    for (; begin + 32 <= end; begin += 32) bits[begin / 32] = ~0u;
+    for (; begin < end; ++begin) bits[begin / 32] |= 1u << begin % 32;
+}
+bool has(const std::vector<std::uint32_t>& bits, std::size_t i) { return (bits[i / 32] >> i % 32 & 1) != 0; }
+
+}  // namespace
+
+CastScene::CastScene(const ObjectSet& scene, std::size_t threads, SahDevice device)
+    : scene_(scene), threads_(threads), builder_(threads, device), scale_(scale_for(scene.bounds)) {
+    const Mesh& mesh = scene.mesh;
+    positions_.resize(mesh.vertices.size());
+    for (std::size_t v = 0; v < positions_.size(); ++v) positions_[v] = mesh.vertices[v].position * scale_;
+    corners_ = kernel_corners(positions_, mesh.indices);
+}
+
+Status CastScene::build_all(const SahSettings& settings) {
+    auto tree = builder_.build({reinterpret_cast<const std::byte*>(positions_.data()), sizeof(glm::vec3),
+                                positions_.size(), scene_.mesh.indices},
+                               settings);
+    if (!tree) return fail_in("ray caster", tree.error());
+    tree_ = std::move(*tree);
+    want_all_ = true;
+    return {};
+}
+
+Status CastScene::build(std::span<const DrawRun> runs, const SahSettings& settings) {
+    run_indices_.clear();
+    run_triangles_.clear();
+    for (const DrawRun& run : runs) {
+        const auto first = scene_.mesh.indices.begin() + 3 * static_cast<std::ptrdiff_t>(run.first_triangle);
+        run_indices_.insert(run_indices_.end(), first,
+                            first + 3 * static_cast<std::ptrdiff_t>(run.triangle_count));
+        for (std::uint32_t t = 0; t < run.triangle_count; ++t)
+            run_triangles_.push_back(run.first_triangle + t);
+    }
+    auto tree = builder_.build({reinterpret_cast<const std::byte*>(positions_.data()), sizeof(glm::vec3),
+                                positions_.size(), run_indices_},
+                               settings);
+    if (!tree) return fail_in("ray caster", tree.error());
+    tree_ = std::move(*tree);
+    for (std::uint32_t& triangle : tree_.triangles) triangle = run_triangles_[triangle];
+    want_all_ = true;
+    return {};
+}
+
+void CastScene::want(std::span<const DrawRun> runs) {
+    std::size_t count = 0;
+    for (const DrawRun& run : runs) count += run.triangle_count;
+    want_all_ = count == scene_.mesh.triangle_count();
+    if (want_all_) return;
+    wanted_triangles_.assign((scene_.mesh.triangle_count() + 31) / 32, 0);
+    for (const DrawRun& run : runs)
+        set_bits(wanted_triangles_, run.first_triangle, std::size_t{run.first_triangle} + run.triangle_count);
+    wanted_nodes_.assign((tree_.nodes.size() + 31) / 32, 0);
+    // Children come after their parents.
+    for (std::size_t i = tree_.nodes.size(); i-- > 0;) {
+        const SahNode& node = tree_.nodes[i];
+        bool wanted = false;
+        if (node.is_leaf()) {
+            for (std::uint32_t t = 0; t < node.count() && !wanted; ++t)
+                wanted = has(wanted_triangles_, tree_.triangles[node.first() + t]);
+        } else {
+            for (std::uint32_t child = 0; child < node.child_count() && !wanted; ++child)
+                wanted = has(wanted_nodes_, node.first_child() + child);
+        }
+        if (wanted) wanted_nodes_[i / 32] |= 1u << i % 32;
+    }
+}
+
+KernelTree CastScene::wanted() const {
+    KernelTree tree = all();
+    if (!want_all_) {
+        tree.wanted_nodes = wanted_nodes_.data();
+        tree.wanted_triangles = wanted_triangles_.data();
+    }
+    return tree;
+}
+
+KernelTree CastScene::all() const { return kernel_tree(tree_, corners_); }
+
+glm::vec3 CastScene::corner(std::uint32_t triangle, int number) const {
+    const float* at = corners_.data() + 9 * std::size_t{triangle} + 3 * static_cast<std::size_t>(number);
+    return {at[0], at[1], at[2]};
+}
+
+}  // namespace swath

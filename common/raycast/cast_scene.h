@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/base/result.h"
+#include "common/octree/sah/sah_builder.h"
+#include "common/raycast/packet_kernel.h"
+#include "common/scene/draw_run.h"
+#include "common/scene/objects.h"
+
+namespace swath {
+
+// The triangles of a model as rays meet them, with a tree over them or over some. Coordinates are scaled by a
+// power of two to at most 1. One thread builds and selects; any may cast.
+class CastScene {
+  public:
+    // `scene` must outlive it.
+    CastScene(const ObjectSet& scene, std::size_t threads, SahDevice device);
+
+    float scale() const { return scale_; }
+    const SahBuilder& builder() const { return builder_; }
+    const SahTree& tree() const { return tree_; }
+
+    // A tree over all triangles.
+    Status build_all(const SahSettings& settings);
+    // A tree over those of `runs` only, at least one.
+    Status build(std::span<const DrawRun> runs, const SahSettings& settings);
+
+    // Limits what wanted() finds to the triangles of `runs`, which the tree must have.
+    void want(std::span<const DrawRun> runs);
+    KernelTree wanted() const;
+    // All that the tree has.
+    KernelTree all() const;
+
+    glm::vec3 corner(std::uint32_t triangle, int number) const;  // scaled
+
+  private:
+    ObjectSet const& scene_;
+    std::size_t threads_;
+    SahBuilder builder_;
+    float scale_ = 1;
+    std::vector<glm::vec3> positions_;
+    std::vector<float> corners_;
+    SahTree tree_;
+    bool want_all_ = true;
+    std::vector<std::uint32_t> wanted_triangles_;  // a bit each
+    std::vector<std::uint32_t> wanted_nodes_;
+    std::vector<std::uint32_t> run_indices_;  // of build(runs), for their memory
+    std::vector<std::uint32_t> run_triangles_;
+};
+
+}  // namespace swath
