@@ -23,6 +23,7 @@ struct View {
     glm::vec3 to_light{0, 0, 1};      // unit, model space; a head-light
     int width = 0;                    // pixels
     int height = 0;
+    float pose = 0;  // of a model that moves, 0 to 1 (see Mesh)
     Rect viewport() const { return {0, 0, width, height}; }
     bool operator==(const View&) const = default;
 };

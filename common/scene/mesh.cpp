@@ -16,7 +16,11 @@ std::array<std::int16_t, 3> pack(const glm::dvec3& n) {
     return {component(n.x), component(n.y), component(n.z)};
 }
 
-bool usable(float coordinate) { return std::isfinite(coordinate) && std::abs(coordinate) <= kMaxCoordinate; }
+bool usable(const glm::vec3& point) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(point[axis]) || std::abs(point[axis]) > kMaxCoordinate) return false;
+    return true;
+}
 
 // How many of a kind, and where the first one is.
 struct Tally {
@@ -55,14 +59,24 @@ Status validate(const Mesh& mesh) {
                     unknown.count, unknown.first, mesh.materials[unknown.first], kMaxMaterials - 1);
 
     Tally wild;
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        const glm::vec3& p = mesh.vertices[i].position;
-        if (!usable(p.x) || !usable(p.y) || !usable(p.z)) wild.add(i);
-    }
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        if (!usable(mesh.vertices[i].position)) wild.add(i);
     if (wild.count > 0) {
         const glm::vec3& p = mesh.vertices[wild.first].position;
         return fail("{} vertices not finite or beyond {}, the first is vertex {}: {} {} {}", wild.count,
                     kMaxCoordinate, wild.first, p.x, p.y, p.z);
+    }
+
+    if (!mesh.motion.empty() && mesh.motion.size() != mesh.vertices.size())
+        return fail("{} motions for {} vertices", mesh.motion.size(), mesh.vertices.size());
+    Tally lost;
+    for (std::size_t i = 0; i < mesh.motion.size(); ++i)
+        if (!usable(posed(mesh, static_cast<std::uint32_t>(i), 1))) lost.add(i);
+    if (lost.count > 0) {
+        const glm::vec3& m = mesh.motion[lost.first];
+        return fail(
+            "{} vertices move to where they are not finite or beyond {}, the first is vertex {}: by {} {} {}",
+            lost.count, kMaxCoordinate, lost.first, m.x, m.y, m.z);
     }
     return {};
 }
@@ -86,9 +100,9 @@ void compute_normals(Mesh& mesh) {
     for (std::size_t i = 0; i < sums.size(); ++i) mesh.vertices[i].normal = pack(sums[i]);
 }
 
-Box bounds(const Mesh& mesh) {
+Box bounds(const Mesh& mesh, float pose) {
     Box box;
-    for (const std::uint32_t i : mesh.indices) box.extend(mesh.vertices[i].position);
+    for (const std::uint32_t i : mesh.indices) box.extend(posed(mesh, i, pose));
     return box;
 }
 

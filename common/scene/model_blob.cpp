@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little,
               "the blob is the memory of a little-endian machine");
 
 constexpr std::string_view kMagic = "SWMB";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 struct Header {
     char magic[4];
@@ -23,8 +23,10 @@ struct Header {
     std::uint64_t vertices;
     std::uint64_t indices;
     std::uint64_t materials;
+    std::uint64_t motions;
 };
-static_assert(sizeof(Header) == 32);
+static_assert(sizeof(Header) == 40);
+static_assert(sizeof(glm::vec3) == 12);
 
 template <class T>
 std::size_t bytes_of(const std::vector<T>& values) {
@@ -60,13 +62,16 @@ Buffer write_blob(const Mesh& mesh) {
     header.vertices = mesh.vertices.size();
     header.indices = mesh.indices.size();
     header.materials = mesh.materials.size();
+    header.motions = mesh.motion.size();
 
-    Buffer blob(sizeof(header) + bytes_of(mesh.vertices) + bytes_of(mesh.indices) + bytes_of(mesh.materials));
+    Buffer blob(sizeof(header) + bytes_of(mesh.vertices) + bytes_of(mesh.indices) + bytes_of(mesh.materials) +
+                bytes_of(mesh.motion));
     std::memcpy(blob.data(), &header, sizeof(header));
     std::uint8_t* to = blob.data() + sizeof(header);
     put(mesh.vertices, to);
     put(mesh.indices, to);
     put(mesh.materials, to);
+    put(mesh.motion, to);
     return blob;
 }
 
@@ -94,17 +99,22 @@ Result<Mesh> read_blob(std::span<const std::uint8_t> bytes) {
         return fail("model blob: {} indices, the limit is {}", header.indices, 3 * kMaxTriangles);
     if (header.materials > kMaxTriangles)
         return fail("model blob: {} material numbers, the limit is {}", header.materials, kMaxTriangles);
+    if (header.motions > kMaxVertices)
+        return fail("model blob: {} motions, the limit is {}", header.motions, kMaxVertices);
     const std::uint64_t expected = sizeof(header) + header.vertices * sizeof(Vertex) +
-                                   (header.indices + header.materials) * sizeof(std::uint32_t);
+                                   (header.indices + header.materials) * sizeof(std::uint32_t) +
+                                   header.motions * sizeof(glm::vec3);
     if (bytes.size() != expected)
-        return fail("model blob: {} bytes, {} vertices, {} indices and {} material numbers need {}",
-                    bytes.size(), header.vertices, header.indices, header.materials, expected);
+        return fail(
+            "model blob: {} bytes, {} vertices, {} indices, {} material numbers and {} motions need {}",
+            bytes.size(), header.vertices, header.indices, header.materials, header.motions, expected);
 
     Mesh mesh;
     const std::uint8_t* from = bytes.data() + sizeof(header);
     get(from, header.vertices, mesh.vertices);
     get(from, header.indices, mesh.indices);
     get(from, header.materials, mesh.materials);
+    get(from, header.motions, mesh.motion);
     if (const Status status = validate(mesh); !status) return fail_in("model blob", status.error());
     return mesh;
 }

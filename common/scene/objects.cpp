@@ -15,11 +15,11 @@ namespace {
 constexpr int kCodeBits = 3 * kMaxOctreeDepth;
 static_assert(kMaxOctreeDepth == kMortonDepth);
 
-// The box of `count` triangles from `first` on.
-Box box_of(const Mesh& mesh, std::uint32_t first, std::uint32_t count) {
+// The box of `count` triangles from `first` on, at a pose.
+Box box_of(const Mesh& mesh, std::uint32_t first, std::uint32_t count, float pose) {
     Box box;
     for (std::size_t i = 3 * std::size_t{first}; i < 3 * (std::size_t{first} + count); ++i)
-        box.extend(mesh.vertices[mesh.indices[i]].position);
+        box.extend(posed(mesh, mesh.indices[i], pose));
     return box;
 }
 
@@ -29,7 +29,7 @@ std::vector<MortonKey> morton_keys(const Mesh& mesh, const Box& box) {
     const glm::dvec3 size = glm::dvec3(box.max) - min;
     std::vector<MortonKey> keys(mesh.triangle_count());
     for (std::size_t t = 0; t < keys.size(); ++t) {
-        const Box triangle = box_of(mesh, static_cast<std::uint32_t>(t), 1);
+        const Box triangle = box_of(mesh, static_cast<std::uint32_t>(t), 1, 0);
         const glm::dvec3 centre = 0.5 * (glm::dvec3(triangle.min) + glm::dvec3(triangle.max));
         keys[t].code = morton_code(centre, min, size);
         keys[t].index = static_cast<std::uint32_t>(t);
@@ -80,7 +80,7 @@ int choose_depth(const std::vector<MortonKey>& keys, const Mesh& mesh, const Gra
 void sort_by_sah_cells(std::vector<MortonKey>& keys, const Mesh& mesh, const Box& box, std::size_t objects) {
     std::vector<SahTriangle> triangles(keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i)
-        triangles[i] = {box_of(mesh, keys[i].index, 1), keys[i].code, mesh.material(keys[i].index)};
+        triangles[i] = {box_of(mesh, keys[i].index, 1, 0), keys[i].code, mesh.material(keys[i].index)};
     const std::vector<std::uint32_t> cells = sah_cells(triangles, box, objects);
     CHECK(cells.size() == keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -99,6 +99,7 @@ Mesh reorder(const Mesh& mesh, const std::vector<MortonKey>& keys) {
     result.indices.reserve(mesh.indices.size());
     result.vertices.reserve(mesh.vertices.size());
     result.materials.reserve(mesh.materials.size());
+    result.motion.reserve(mesh.motion.size());
     for (const MortonKey& key : keys) {
         if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[key.index]);
         for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -106,6 +107,7 @@ Mesh reorder(const Mesh& mesh, const std::vector<MortonKey>& keys) {
             if (numbers[old] == kUnused) {
                 numbers[old] = static_cast<std::uint32_t>(result.vertices.size());
                 result.vertices.push_back(mesh.vertices[old]);
+                if (!mesh.motion.empty()) result.motion.push_back(mesh.motion[old]);
             }
             result.indices.push_back(numbers[old]);
         }
@@ -125,8 +127,11 @@ void add_leaves(ObjectSet& set, Object& object, std::uint32_t leaf_triangles) {
         Leaf& leaf = set.leaves.emplace_back();
         leaf.first_triangle = object.first_triangle + begin;
         leaf.triangle_count = end - begin;
-        leaf.box = box_of(set.mesh, leaf.first_triangle, leaf.triangle_count);
+        leaf.box = box_of(set.mesh, leaf.first_triangle, leaf.triangle_count, 0);
         object.box.extend(leaf.box);
+        if (set.mesh.motion.empty()) continue;
+        leaf.end_box = box_of(set.mesh, leaf.first_triangle, leaf.triangle_count, 1);
+        object.end_box.extend(leaf.end_box);
     }
 }
 
@@ -193,7 +198,10 @@ ObjectSet build_objects(Mesh mesh, const Granularity& granularity) {
         }
         ++set.objects.back().triangle_count;
     }
-    for (Object& object : set.objects) add_leaves(set, object, granularity.leaf_triangles);
+    for (Object& object : set.objects) {
+        add_leaves(set, object, granularity.leaf_triangles);
+        set.end_bounds.extend(object.end_box);
+    }
     return set;
 }
 

@@ -24,6 +24,9 @@ struct Object {
     std::uint32_t leaf_count = 0;
     std::uint32_t material = 0;  // as in Mesh
     Box box;                     // of its whole triangles, not of the cell
+    Box end_box = {};            // at pose 1; empty if the model does not move
+    // Around it at a pose of 0 to 1.
+    Box box_at(float pose) const { return swath::box_at(box, end_box, pose); }
     bool operator==(const Object&) const = default;
 };
 
@@ -31,7 +34,9 @@ struct Object {
 struct Leaf {
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
-    Box box;  // of its whole triangles
+    Box box;           // of its whole triangles
+    Box end_box = {};  // at pose 1; empty if the model does not move
+    Box box_at(float pose) const { return swath::box_at(box, end_box, pose); }
     bool operator==(const Leaf&) const = default;
 };
 
@@ -70,14 +75,25 @@ std::string to_string(const Cut& cut);
 // cell and in a cell in the order of their centres' Morton codes in the model's tight, non-cubic box. So
 // every object is a contiguous range, ascending object ids are ascending triangles and ascending materials,
 // and ascending leaves are ascending triangles too. Cells of the uniform octree follow the Morton codes
-// themselves: there a picture does not depend on the depth. Vertices are numbered by first use. Immutable
-// after build_objects; any thread may read it.
+// themselves: there a picture does not depend on the depth. Vertices are numbered by first use. What moves is
+// cut as it is at pose 0. Immutable after build_objects; any thread may read it.
 struct ObjectSet {
     Mesh mesh;
     std::vector<Object> objects;  // never empty; objects[id]
     std::vector<Leaf> leaves;     // never empty
-    Box bounds;
+    Box bounds;                   // at pose 0
+    Box end_bounds = {};          // at pose 1; empty if nothing moves
     Cut cut;
+
+    bool moves() const { return !end_bounds.empty(); }
+    // Around all leaves' and objects' boxes at a pose.
+    Box bounds_at(float pose) const { return box_at(bounds, end_bounds, pose); }
+    // Around the model at every pose.
+    Box swept_bounds() const {
+        Box box = bounds;
+        box.extend(end_bounds);
+        return box;
+    }
 };
 
 // Deterministic, and the same whether the mesh is the model's or that of a set that was cut from it before:

@@ -148,6 +148,7 @@ struct Encoder {
         put_region(m.final_region, *out.mutable_final_region());
         put_exchanges(m.outgoing, *out.mutable_outgoing());
         put_exchanges(m.incoming, *out.mutable_incoming());
+        out.set_pose(m.view.pose);
     }
     void operator()(const AssembleFrame& m) const {
         pb::AssembleFrame& out = *head.mutable_assemble_frame();
@@ -371,6 +372,8 @@ Result<View> get_view(const pb::RenderFrame& in) {
     if (const auto s = check_size(in.width(), in.height()); !s) return tl::unexpected(s.error());
     view.width = static_cast<int>(in.width());
     view.height = static_cast<int>(in.height());
+    if (!(in.pose() >= 0 && in.pose() <= 1)) return fail("pose: {}, the limits are 0 and 1", in.pose());
+    view.pose = in.pose();
     return view;
 }
 

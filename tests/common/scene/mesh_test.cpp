@@ -64,6 +64,35 @@ TEST(MeshTest, material_numbers_are_none_or_one_a_triangle_and_below_their_limit
               "2 material numbers out of range, the first of triangle 4: 1048576, the limit is 1048575");
 }
 
+TEST(MeshTest, a_motion_is_none_or_one_a_vertex_and_ends_where_a_coordinate_may_be) {
+    Mesh mesh = test::cube(2);
+    mesh.motion.assign(7, glm::vec3(1));
+    EXPECT_EQ(why_not(mesh), "7 motions for 8 vertices");
+    mesh.motion.push_back(glm::vec3(-1e18f));
+    EXPECT_EQ(why_not(mesh), "valid");
+    mesh.motion[2].y = std::numeric_limits<float>::quiet_NaN();
+    mesh.motion[5] = {0, 0, 3e38f};
+    EXPECT_EQ(
+        why_not(mesh),
+        "2 vertices move to where they are not finite or beyond 1e+18, the first is vertex 2: by 1 nan 1");
+    // Each is a coordinate, their sum is none.
+    mesh = test::cube(kMaxCoordinate);
+    mesh.motion.assign(8, glm::vec3(0, 0, kMaxCoordinate));
+    EXPECT_THAT(why_not(mesh), HasSubstr("4 vertices move to"));
+}
+
+TEST(MeshTest, a_vertex_goes_straight_from_where_it_is_to_where_its_motion_ends) {
+    Mesh mesh = test::cube(2);
+    EXPECT_EQ(posed(mesh, 7, 0.5f), glm::vec3(2));
+    mesh.motion.assign(8, glm::vec3(0));
+    mesh.motion[7] = {4, -2, 0};
+    EXPECT_EQ(posed(mesh, 7, 0), glm::vec3(2));
+    EXPECT_EQ(posed(mesh, 7, 0.25f), glm::vec3(3, 1.5f, 2));
+    EXPECT_EQ(posed(mesh, 7, 1), glm::vec3(6, 0, 2));
+    EXPECT_EQ(bounds(mesh), (Box{glm::vec3(0), glm::vec3(2)}));
+    EXPECT_EQ(bounds(mesh, 0.25f), (Box{glm::vec3(0), glm::vec3(3, 2, 2)}));
+}
+
 TEST(MeshTest, triangles_without_area_are_valid) {
     Mesh mesh = test::cube();
     mesh.indices[1] = mesh.indices[0];

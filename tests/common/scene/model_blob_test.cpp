@@ -19,7 +19,8 @@ constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kVerticesAt = 8;
 constexpr std::size_t kIndicesAt = 16;
 constexpr std::size_t kMaterialsAt = 24;
-constexpr std::size_t kBodyAt = 32;
+constexpr std::size_t kMotionsAt = 32;
+constexpr std::size_t kBodyAt = 40;
 
 Bytes cube_blob() {
     const Buffer blob = write_blob(test::cube());
@@ -40,10 +41,13 @@ std::string why_not(const Bytes& bytes) {
 TEST(ModelBlobTest, a_mesh_survives_the_round_trip_bit_for_bit) {
     Mesh painted = test::cube();
     for (std::uint32_t t = 0; t < painted.triangle_count(); ++t) painted.materials.push_back(7 * t);
-    for (const Mesh& mesh : {test::cube(), test::triangle_soup(1000, 1), painted}) {
+    Mesh moving = painted;
+    for (int v = 0; v < 8; ++v) moving.motion.emplace_back(v, 0.5f, -v);
+    for (const Mesh& mesh : {test::cube(), test::triangle_soup(1000, 1), painted, moving}) {
         const Buffer blob = write_blob(mesh);
-        EXPECT_EQ(blob.size(),
-                  32 + 24 * mesh.vertices.size() + 4 * (mesh.indices.size() + mesh.materials.size()));
+        EXPECT_EQ(blob.size(), 40 + 24 * mesh.vertices.size() +
+                                   4 * (mesh.indices.size() + mesh.materials.size()) +
+                                   12 * mesh.motion.size());
         const Result<Mesh> again = read_blob(blob.bytes());
         ASSERT_TRUE(again) << again.error().message;
         EXPECT_EQ(*again, mesh);
@@ -70,14 +74,14 @@ TEST(ModelBlobTest, bytes_after_the_end_are_refused) {
     Bytes blob = cube_blob();
     blob.push_back(0);
     EXPECT_THAT(why_not(blob),
-                HasSubstr("369 bytes, 8 vertices, 36 indices and 0 material numbers need 368"));
+                HasSubstr("377 bytes, 8 vertices, 36 indices, 0 material numbers and 0 motions need 376"));
 }
 
 TEST(ModelBlobTest, another_magic_or_version_is_refused) {
     EXPECT_THAT(why_not(with(cube_blob(), 0, 'X')), HasSubstr("SWMB"));
     EXPECT_EQ(why_not(with(cube_blob(), kVersionAt, std::uint32_t{1})),
-              "model blob: version 1, this program reads 2");
-    EXPECT_THAT(why_not(with(cube_blob(), kVersionAt, std::uint32_t{3})), HasSubstr("version 3"));
+              "model blob: version 1, this program reads 3");
+    EXPECT_THAT(why_not(with(cube_blob(), kVersionAt, std::uint32_t{4})), HasSubstr("version 4"));
 }
 
 TEST(ModelBlobTest, counts_that_overflow_are_refused_by_their_limits) {
@@ -85,13 +89,15 @@ TEST(ModelBlobTest, counts_that_overflow_are_refused_by_their_limits) {
                 HasSubstr("the limit is"));
     EXPECT_THAT(why_not(with(cube_blob(), kIndicesAt, ~std::uint64_t{0})), HasSubstr("the limit is"));
     EXPECT_THAT(why_not(with(cube_blob(), kMaterialsAt, ~std::uint64_t{0})), HasSubstr("the limit is"));
+    EXPECT_THAT(why_not(with(cube_blob(), kMotionsAt, std::uint64_t{1} << 62)), HasSubstr("the limit is"));
+    EXPECT_THAT(why_not(with(cube_blob(), kMotionsAt, std::uint64_t{8})), HasSubstr("8 motions need 472"));
     // 24 * 2^61 and 4 * 2^62 are 0 in 64 bits.
     EXPECT_THAT(why_not(with(cube_blob(), kVerticesAt, std::uint64_t{1} << 61 | 8)),
                 HasSubstr("the limit is"));
     EXPECT_THAT(why_not(with(cube_blob(), kIndicesAt, std::uint64_t{1} << 62 | 36)),
                 HasSubstr("the limit is"));
     EXPECT_THAT(why_not(with(cube_blob(), kVerticesAt, std::uint64_t{4'000'000'000})),
-                HasSubstr("need 96000000176"));
+                HasSubstr("need 96000000184"));
 }
 
 TEST(ModelBlobTest, a_mesh_that_cannot_be_rendered_is_refused) {
@@ -102,6 +108,17 @@ TEST(ModelBlobTest, a_mesh_that_cannot_be_rendered_is_refused) {
     const Buffer blob = write_blob(painted);
     EXPECT_THAT(why_not(with(Bytes(blob.data(), blob.data() + blob.size()), blob.size() - 4, ~0u)),
                 HasSubstr("1 material numbers out of range"));
+    Mesh moving = test::cube();
+    moving.motion.assign(8, glm::vec3(0));
+    const Buffer fast = write_blob(moving);
+    EXPECT_THAT(why_not(with(Bytes(fast.data(), fast.data() + fast.size()), fast.size() - 4, 0x7f800000u)),
+                HasSubstr("1 vertices move to"));
+    moving.motion.pop_back();
+    EXPECT_THAT(why_not([&] {
+                    const Buffer few = write_blob(moving);
+                    return Bytes(few.data(), few.data() + few.size());
+                }()),
+                HasSubstr("7 motions for 8 vertices"));
     Mesh empty = test::cube();
     empty.indices.clear();
     EXPECT_FALSE(read_blob(write_blob(empty).bytes()));

@@ -113,6 +113,44 @@ TEST(ObjectsTest, a_box_is_that_of_its_whole_triangles) {
     EXPECT_EQ(set.bounds, all);
 }
 
+TEST(ObjectsTest, boxes_are_around_what_moves_at_every_pose) {
+    Mesh mesh = test::triangle_soup(3000, 7);
+    const Mesh elsewhere = test::triangle_soup(3000, 8);
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        mesh.motion.push_back(3.0f * elsewhere.vertices[i].position - mesh.vertices[i].position);
+    const ObjectSet set = at_depth(mesh, 3);
+    EXPECT_TRUE(set.moves());
+    ASSERT_EQ(set.mesh.motion.size(), set.mesh.vertices.size());
+    // Vertices are still those that they were.
+    EXPECT_EQ(bounds(set.mesh, 1), bounds(mesh, 1));
+    EXPECT_EQ(set.end_bounds, bounds(mesh, 1));
+    EXPECT_TRUE(contains(set.swept_bounds(), set.end_bounds));
+    for (const float pose : {0.0f, 1e-9f, 0.1f, 1.0f / 3, 0.5f, 0.77f, 0.9999999f, 1.0f}) {
+        EXPECT_TRUE(contains(set.bounds_at(pose), bounds(mesh, pose)));
+        EXPECT_TRUE(contains(set.swept_bounds(), set.bounds_at(pose)));
+        for (const Object& object : set.objects) {
+            EXPECT_TRUE(contains(set.bounds_at(pose), object.box_at(pose)));
+            for (std::uint32_t i = object.first_leaf; i < object.first_leaf + object.leaf_count; ++i) {
+                const Leaf& leaf = set.leaves[i];
+                EXPECT_TRUE(contains(object.box_at(pose), leaf.box_at(pose)));
+                Box box;
+                for (std::uint32_t c = 0; c < 3 * leaf.triangle_count; ++c)
+                    box.extend(posed(set.mesh, set.mesh.indices[3 * leaf.first_triangle + c], pose));
+                EXPECT_TRUE(contains(leaf.box_at(pose), box));
+            }
+        }
+    }
+}
+
+TEST(ObjectsTest, a_model_that_does_not_move_has_its_boxes_at_every_pose) {
+    const ObjectSet set = at_depth(test::triangle_soup(300, 7), 2);
+    EXPECT_FALSE(set.moves());
+    EXPECT_EQ(set.bounds_at(0.5f), set.bounds);
+    EXPECT_EQ(set.swept_bounds(), set.bounds);
+    for (const Object& object : set.objects) EXPECT_EQ(object.box_at(0.5f), object.box);
+    for (const Leaf& leaf : set.leaves) EXPECT_EQ(leaf.box_at(0.5f), leaf.box);
+}
+
 TEST(ObjectsTest, the_order_of_triangles_and_vertices_is_the_same_at_every_depth) {
     const Mesh mesh = test::triangle_soup(3000, 7);
     const Mesh expected = at_depth(mesh, 0).mesh;

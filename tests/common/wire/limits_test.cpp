@@ -185,6 +185,10 @@ TEST_F(RenderFrameLimit, OfTheView) {
            "clip_from_model: not a finite number");
     expect([](auto& m) { m.set_to_light(2, std::numeric_limits<float>::quiet_NaN()); },
            "to_light: not a finite number");
+    expect([](auto& m) { m.set_pose(-0.25f); }, "pose: -0.25, the limits are 0 and 1");
+    expect([](auto& m) { m.set_pose(1.5f); }, "pose: 1.5, the limits are 0 and 1");
+    expect([](auto& m) { m.set_pose(std::numeric_limits<float>::quiet_NaN()); },
+           "pose: nan, the limits are 0 and 1");
     expect([](auto& m) { m.set_width(0); }, "size: 0x48" + size);
     expect([](auto& m) { m.set_height(16385); }, "size: 64x16385" + size);
     expect([](auto& m) { m.set_height(0x80000001); }, "size: 64x2147483649" + size);

@@ -57,6 +57,7 @@ class Maker {
         for (int c = 0; c < 4; ++c)
             for (int r = 0; r < 4; ++r) m.view.clip_from_model[c][r] = number();
         m.view.to_light = {number(), number(), number()};
+        m.view.pose = static_cast<float>(below(5)) / 4;
         for (std::uint64_t id = below(3); id < kMaxObjects && m.group.size() < 50;
              id += 1 + below(1u << below(32)))
             m.group.push_back(static_cast<ObjectId>(id));
