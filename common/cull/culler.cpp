@@ -19,6 +19,7 @@ class NoCuller final : public Culler {
   public:
     explicit NoCuller(std::size_t boxes) : all_(boxes) { std::iota(all_.begin(), all_.end(), 0u); }
     std::span<const std::uint32_t> cull(const Frustum& /*frustum*/) override { return all_; }
+    void refit(std::span<const Box> boxes) override { CHECK(boxes.size() == all_.size()); }
 
   private:
     std::vector<std::uint32_t> all_;

@@ -28,6 +28,15 @@ LeafCull::LeafCull(CullAlgorithm algorithm, const ObjectSet& scene, ThreadTeam& 
     boxes.reserve(scene.leaves.size());
     for (const Leaf& leaf : scene.leaves) boxes.push_back(leaf.box);
     culler_ = make_culler(algorithm, boxes, team);
+    if (scene.moves()) boxes_ = std::move(boxes);
+}
+
+// Moves the leaves there, if they move and are not there yet.
+void LeafCull::pose(float pose) {
+    if (boxes_.empty() || pose == pose_) return;
+    pose_ = pose;
+    for (std::size_t i = 0; i < boxes_.size(); ++i) boxes_[i] = scene_.leaves[i].box_at(pose);
+    culler_->refit(boxes_);
 }
 
 DrawList LeafCull::cull(std::span<const ObjectId> group, const View& view, const Rect& rect) {
@@ -39,7 +48,8 @@ DrawList LeafCull::cull(std::span<const ObjectId> group, const View& view, const
     }
     if (!culler_) return whole(scene_, group);
 
-    const std::span<const std::uint32_t> leaves = culler_->cull(make_frustum(view, rect, scene_.bounds));
+    pose(view.pose);
+    const auto leaves = culler_->cull(make_frustum(view, rect, scene_.bounds_at(view.pose)));
     list.split_level = culler_->split_level();
     list.visible.reserve(group.size());
     std::size_t at = 0;  // both lists ascend

@@ -30,12 +30,17 @@ class LeafCull {
     LeafCull(CullAlgorithm algorithm, const ObjectSet& scene, ThreadTeam& team);
 
     // Those leaves of `group` (ascending ids, each below the number of objects) that may cover a pixel centre
-    // of `rect`: all but those outside make_frustum(view, rect, bounds of the scene). Nothing if `rect` is
-    // empty. Always culls the whole model, whatever the group: that takes microseconds.
+    // of `rect`: all but those whose boxes at the view's pose are outside make_frustum(view, rect, bounds of
+    // the scene at that pose). Nothing if `rect` is empty. Always culls the whole model, whatever the group:
+    // that takes microseconds. A new pose of a model that moves comes first: O(leaves).
     DrawList cull(std::span<const ObjectId> group, const View& view, const Rect& rect);
 
   private:
+    void pose(float pose);
+
     const ObjectSet& scene_;
+    std::vector<Box> boxes_;  // of the leaves at pose_; empty if the model does not move, or none culls
+    float pose_ = 0;          // of boxes_ and culler_
     std::unique_ptr<Culler> culler_;  // null: none
 };
 

@@ -35,13 +35,12 @@ class NumberSet {
 class OctreeCuller final : public Culler {
   public:
     OctreeCuller(PublishedAlgorithm algorithm, std::span<const Box> boxes, ThreadTeam& team)
-        : cells_(boxes),
-          walk_(make_published_walk(algorithm, cells_.shape(), team)),
+        : algorithm_(algorithm),
+          team_(team),
+          cells_(boxes),
           found_(has_one_member(algorithm) ? 1 : team.size()),
           set_(boxes.size()) {
-        walk_->set_leaf_task([this](std::size_t member, std::span<const std::uint32_t> leaves) {
-            cull_boxes(member, leaves);
-        });
+        make_walk();
     }
 
     std::span<const std::uint32_t> cull(const Frustum& frustum) override {
@@ -55,6 +54,15 @@ class OctreeCuller final : public Culler {
         return visible_;
     }
 
+    // The papers say nothing of what moves: other cells, and what has been learned of the split level stays
+    // while the tree is as high.
+    void refit(std::span<const Box> boxes) override {
+        CHECK(boxes.size() == cells_.box_count());
+        const int height = cells_.shape().height();
+        cells_ = ObjectCells(boxes);
+        if (cells_.shape().height() != height) make_walk();
+    }
+
     std::optional<int> split_level() const override { return split_level_; }
 
   private:
@@ -62,6 +70,13 @@ class OctreeCuller final : public Culler {
     struct alignas(128) Found {
         OwnedList<WalkList<std::uint32_t>> ids;
     };
+
+    void make_walk() {
+        walk_ = make_published_walk(algorithm_, cells_.shape(), team_);
+        walk_->set_leaf_task([this](std::size_t member, std::span<const std::uint32_t> leaves) {
+            cull_boxes(member, leaves);
+        });
+    }
 
     void cull_boxes(std::size_t member, std::span<const std::uint32_t> leaves) {
         WalkList<std::uint32_t>& ids = *found_[member].ids;
@@ -73,6 +88,8 @@ class OctreeCuller final : public Culler {
                                      first + count * (member + 1) / found_.size(), ids);
     }
 
+    PublishedAlgorithm algorithm_;
+    ThreadTeam& team_;
     ObjectCells cells_;
     std::unique_ptr<PublishedWalk> walk_;
     std::vector<Found> found_;

@@ -14,6 +14,12 @@ constexpr std::uint32_t kFewBlocks = 64;
 WideCuller::WideCuller(std::span<const Box> boxes, ThreadTeam& team, InstructionSet instructions)
     : hierarchy_(boxes, team, instructions), scan_(hierarchy_.blocks(), team, instructions) {}
 
+// What the last frame showed of the order holds no longer.
+void WideCuller::refit(std::span<const Box> boxes) {
+    hierarchy_.refit(boxes);
+    small_ = false;
+}
+
 bool WideCuller::better_scanned(const Frustum& frustum) {
     if (hierarchy_.blocks().block_count() <= kFewBlocks) return true;
     const double nodes = hierarchy_.crossing_nodes(frustum);

@@ -17,6 +17,8 @@ class WideCuller final : public Culler {
                InstructionSet instructions = best_instruction_set());
 
     std::span<const std::uint32_t> cull(const Frustum& frustum) override;
+    // O(n), and allocates nothing. Boxes that have lost their order are the more often scanned.
+    void refit(std::span<const Box> boxes) override;
     bool scanned() const { return scanned_; }  // the last frame was a flat scan
 
   private:

@@ -18,6 +18,22 @@ inline ObjectSet soup(std::uint32_t seed, const glm::vec3& offset = {}, std::uin
     return build_objects(std::move(mesh), {.depth = depth, .leaf_triangles = leaf_triangles});
 }
 
+// The same at pose 0, which everything leaves for somewhere else in it or around it.
+inline ObjectSet moving_soup(std::uint32_t seed, const glm::vec3& offset = {},
+                             std::uint32_t leaf_triangles = 8) {
+    ObjectSet still = soup(seed, offset, leaf_triangles);
+    Mesh& mesh = still.mesh;
+    const glm::vec3 size = still.bounds.size();
+    std::mt19937 random(seed);
+    const auto number = [&] { return static_cast<float>(random() >> 8) / 16777216.0f - 0.5f; };
+    mesh.motion.resize(mesh.vertices.size());
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const glm::vec3 by = 1.5f * size * glm::vec3(number(), number(), number());
+        for (std::size_t c = 0; c < 3; ++c) mesh.motion[mesh.indices[3 * t + c]] = by;
+    }
+    return build_objects(std::move(mesh), {.depth = 3, .leaf_triangles = leaf_triangles});
+}
+
 inline std::vector<ObjectId> all_ids(const ObjectSet& scene) {
     std::vector<ObjectId> ids(scene.objects.size());
     std::iota(ids.begin(), ids.end(), ObjectId{0});
@@ -50,6 +66,12 @@ class RandomViews {
         camera.near = size * (below(2) == 0 ? 1e-5f : 0.01f);
         camera.far = size * number(0.2f, 4);
         return make_view(camera, 1 + static_cast<int>(below(300)), 1 + static_cast<int>(below(200)));
+    }
+    // At a pose.
+    View posed_view(const ObjectSet& scene) {
+        View made = view(scene);
+        made.pose = below(5) == 0 ? static_cast<float>(below(2)) : number(0, 1);
+        return made;
     }
     // The whole viewport, a part of it, or a pixel.
     Rect rect(const View& view) {

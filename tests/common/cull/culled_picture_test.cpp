@@ -40,24 +40,25 @@ TEST(CulledPicture, EqualsThatOfTheWholeModel) {
     const SteadyClock clock;
     ThreadTeam team(2, clock);
     int active = 0;
-    for (const glm::vec3& offset : {glm::vec3(0), glm::vec3(-300, 40, 1000), glm::vec3(3e4f, 1e5f, -2e4f)}) {
-        const ObjectSet scene = test::soup(13, offset, 4);
-        const std::vector<ObjectId> all = test::all_ids(scene);
-        auto renderer = make_renderer(RendererSetup{}, scene);
-        ASSERT_TRUE(renderer.has_value()) << renderer.error().message;
-        LeafCull none(CullAlgorithm::kNone, scene, team);
-        LeafCull wide(CullAlgorithm::kWide, scene, team);
-        test::RandomViews random(8);
-        for (int round = 0; round < 60; ++round) {
-            const View view = random.view(scene);
-            const Rect rect = random.rect(view);
-            const PixelFrame expected = draw(**renderer, none.cull(all, view, rect), view, rect);
-            const Counted counted =
-                compare(expected, draw(**renderer, wide.cull(all, view, rect), view, rect), rect);
-            ASSERT_EQ(counted.different, 0) << "round " << round << ", " << rect;
-            active += counted.active;
+    for (const glm::vec3& offset : {glm::vec3(0), glm::vec3(-300, 40, 1000), glm::vec3(3e4f, 1e5f, -2e4f)})
+        for (const bool moves : {false, true}) {
+            const ObjectSet scene = moves ? test::moving_soup(13, offset, 4) : test::soup(13, offset, 4);
+            const std::vector<ObjectId> all = test::all_ids(scene);
+            auto renderer = make_renderer(RendererSetup{}, scene);
+            ASSERT_TRUE(renderer.has_value()) << renderer.error().message;
+            LeafCull none(CullAlgorithm::kNone, scene, team);
+            LeafCull wide(CullAlgorithm::kWide, scene, team);
+            test::RandomViews random(8);
+            for (int round = 0; round < 60; ++round) {
+                const View view = random.posed_view(scene);
+                const Rect rect = random.rect(view);
+                const PixelFrame expected = draw(**renderer, none.cull(all, view, rect), view, rect);
+                const Counted counted =
+                    compare(expected, draw(**renderer, wide.cull(all, view, rect), view, rect), rect);
+                ASSERT_EQ(counted.different, 0) << "round " << round << ", " << rect;
+                active += counted.active;
+            }
         }
-    }
     EXPECT_GT(active, 20'000);
 }
 

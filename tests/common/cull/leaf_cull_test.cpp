@@ -31,12 +31,16 @@ class LeafCullTest : public testing::Test {
     }
     // What a loop over the group's leaves would draw.
     std::vector<bool> not_outside(std::span<const ObjectId> group, const View& view, const Rect& rect) const {
-        const Frustum frustum = make_frustum(view, rect, scene_.bounds);
-        std::vector<bool> triangles(scene_.mesh.triangle_count());
+        return not_outside(scene_, group, view, rect);
+    }
+    static std::vector<bool> not_outside(const ObjectSet& scene, std::span<const ObjectId> group,
+                                         const View& view, const Rect& rect) {
+        const Frustum frustum = make_frustum(view, rect, scene.bounds_at(view.pose));
+        std::vector<bool> triangles(scene.mesh.triangle_count());
         for (const ObjectId id : group)
-            for (std::uint32_t i = 0; i < scene_.objects[id].leaf_count; ++i) {
-                const Leaf& leaf = scene_.leaves[scene_.objects[id].first_leaf + i];
-                if (outside(frustum, leaf.box)) continue;
+            for (std::uint32_t i = 0; i < scene.objects[id].leaf_count; ++i) {
+                const Leaf& leaf = scene.leaves[scene.objects[id].first_leaf + i];
+                if (outside(frustum, leaf.box_at(view.pose))) continue;
                 std::fill_n(triangles.begin() + leaf.first_triangle, leaf.triangle_count, true);
             }
         return triangles;
@@ -69,6 +73,44 @@ TEST_F(LeafCullTest, DrawsTheGroupsLeavesThatAreNotOutsideWithEveryAlgorithm) {
             partly += list.triangles > 0 && list.triangles < scene_.mesh.triangle_count() / 2 ? 1 : 0;
         }
         EXPECT_GT(partly, 10u);
+    }
+}
+
+TEST_F(LeafCullTest, DrawsThoseOfAMovingModelAtEveryPoseInAnyOrder) {
+    const ObjectSet moving = test::moving_soup(7);
+    for (const CullAlgorithm algorithm :
+         {CullAlgorithm::kWide, CullAlgorithm::kA2ssb, CullAlgorithm::kAdsb}) {
+        LeafCull cull(algorithm, moving, team_);
+        RandomViews random(10);
+        std::size_t partly = 0;
+        std::size_t elsewhere = 0;  // frames in which the boxes of pose 0 would have been wrong
+        View view = random.posed_view(moving);
+        for (int round = 0; round < 90; ++round) {
+            const float pose = view.pose;
+            view = random.posed_view(moving);
+            if (round % 3 == 0) view.pose = pose;
+            const Rect rect = random.rect(view);
+            const DrawList list = cull.cull(all_ids(moving), view, rect);
+            const std::vector<bool> found = drawn(list);
+            ASSERT_EQ(found, not_outside(moving, all_ids(moving), view, rect))
+                << name_of(algorithm) << " " << round;
+            partly += list.triangles > 0 && list.triangles < moving.mesh.triangle_count() / 2 ? 1 : 0;
+            View still = view;
+            still.pose = 0;
+            elsewhere += found != not_outside(moving, all_ids(moving), still, rect) ? 1 : 0;
+        }
+        EXPECT_GT(partly, 10u);
+        EXPECT_GT(elsewhere, 10u);
+    }
+}
+
+TEST_F(LeafCullTest, DrawsAllOfAMovingModelAtEveryPoseWithNone) {
+    const ObjectSet moving = test::moving_soup(7);
+    LeafCull cull(CullAlgorithm::kNone, moving, team_);
+    RandomViews random(10);
+    for (int round = 0; round < 5; ++round) {
+        const View view = random.posed_view(moving);
+        EXPECT_EQ(cull.cull(all_ids(moving), view, view.viewport()).triangles, moving.mesh.triangle_count());
     }
 }
 
@@ -214,7 +256,7 @@ bool shows(const ObjectSet& scene, std::size_t triangle, const View& view, const
     for (std::size_t c = 0; c < 3; ++c)
         polygon.push_back(
             glm::dmat4(view.clip_from_model) *
-            glm::dvec4(glm::dvec3(scene.mesh.vertices[scene.mesh.indices[3 * triangle + c]].position), 1));
+            glm::dvec4(glm::dvec3(posed(scene.mesh, scene.mesh.indices[3 * triangle + c], view.pose)), 1));
     const auto ndc = [](int pixel, int pixels) { return 2.0 * pixel / pixels - 1; };
     for (const glm::dvec4& plane :
          {glm::dvec4(0, 0, 1, 1), glm::dvec4(0, 0, -1, 1), glm::dvec4(1, 0, 0, -ndc(rect.x0, view.width)),
@@ -230,29 +272,30 @@ TEST(LeafCullProperty, NoTriangleThatShowsInTheRectangleIsEverDropped) {
     std::size_t dropped = 0;
     std::size_t shown = 0;
     // Far from the origin single precision has fewer digits left for the model.
-    for (const glm::vec3& offset : {glm::vec3(0), glm::vec3(-300, 40, 1000), glm::vec3(3e4f, 1e5f, -2e4f)}) {
-        const ObjectSet scene = test::soup(11, offset, 3);
-        const std::vector<ObjectId> all = all_ids(scene);
-        LeafCull cull(CullAlgorithm::kWide, scene, team);
-        RandomViews random(6);
-        for (int round = 0; round < 40; ++round) {
-            const View view = random.view(scene);
-            const Rect rect = random.rect(view);
-            std::size_t next = 0;
-            const auto check_dropped = [&](std::size_t end) {
-                for (; next < end; ++next) {
-                    ++dropped;
-                    ASSERT_FALSE(shows(scene, next, view, rect)) << "triangle " << next << " in " << rect;
+    for (const glm::vec3& offset : {glm::vec3(0), glm::vec3(-300, 40, 1000), glm::vec3(3e4f, 1e5f, -2e4f)})
+        for (const bool moves : {false, true}) {
+            const ObjectSet scene = moves ? test::moving_soup(11, offset, 3) : test::soup(11, offset, 3);
+            const std::vector<ObjectId> all = all_ids(scene);
+            LeafCull cull(CullAlgorithm::kWide, scene, team);
+            RandomViews random(6);
+            for (int round = 0; round < 40; ++round) {
+                const View view = random.posed_view(scene);
+                const Rect rect = random.rect(view);
+                std::size_t next = 0;
+                const auto check_dropped = [&](std::size_t end) {
+                    for (; next < end; ++next) {
+                        ++dropped;
+                        ASSERT_FALSE(shows(scene, next, view, rect)) << "triangle " << next << " in " << rect;
+                    }
+                };
+                for (const DrawRun& run : cull.cull(all, view, rect).runs) {
+                    check_dropped(run.first_triangle);
+                    for (; next < run.first_triangle + run.triangle_count; ++next)
+                        shown += shows(scene, next, view, rect) ? 1 : 0;
                 }
-            };
-            for (const DrawRun& run : cull.cull(all, view, rect).runs) {
-                check_dropped(run.first_triangle);
-                for (; next < run.first_triangle + run.triangle_count; ++next)
-                    shown += shows(scene, next, view, rect) ? 1 : 0;
+                check_dropped(scene.mesh.triangle_count());
             }
-            check_dropped(scene.mesh.triangle_count());
         }
-    }
     EXPECT_GT(dropped, 100'000u);
     EXPECT_GT(shown, 10'000u);
 }

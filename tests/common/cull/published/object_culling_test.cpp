@@ -69,6 +69,23 @@ TEST(OctreeCuller, WorksWithEveryPublishedAlgorithm) {
     }
 }
 
+TEST(OctreeCuller, FindsBoxesWhereTheyHaveMovedTo) {
+    const std::vector<Frustum> views = frusta();
+    ThreadTeam team(3, kClock);
+    for (const CullAlgorithm algorithm : {CullAlgorithm::kA2ssb, CullAlgorithm::kAdsb}) {
+        std::vector<Box> boxes = BoxMaker(5).scattered(3'000, 2);
+        const auto culler = make_culler(algorithm, boxes, team);
+        for (std::uint32_t round = 0; round < 6; ++round) {
+            boxes = BoxMaker(7 + round).scattered(3'000, round % 2 == 0 ? 2 : 40);
+            // All together at one place: a tree of another height.
+            if (round == 3) boxes.assign(3'000, boxes.front());
+            culler->refit(boxes);
+            for (const Frustum& view : views)
+                ASSERT_THAT(culler->cull(view), ElementsAreArray(brute_force(boxes, view))) << round;
+        }
+    }
+}
+
 TEST(OctreeCuller, SaysAtWhichLevelItSharedOutItsWork) {
     const std::vector<Box> boxes = BoxMaker(6).scattered(20'000, 1);
     ThreadTeam team(2, kClock);

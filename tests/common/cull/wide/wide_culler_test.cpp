@@ -30,6 +30,22 @@ TEST(WideCuller, GivesTheSameAnswerWhicheverWayItTakes) {
     EXPECT_TRUE(walked);
 }
 
+TEST(WideCuller, FindsBoxesWhereTheyHaveMovedTo) {
+    ThreadTeam team(2, kClock);
+    RandomScene scene(3);
+    for (const std::size_t size : {0u, 1u, 100u, 30'000u}) {
+        WideCuller culler(scene.boxes(size, Layout::kMorton), team);
+        for (int round = 0; round < 12; ++round) {
+            const std::vector<Box> boxes = scene.boxes(size, kLayouts[round % 5]);
+            culler.refit(boxes);
+            for (int again = 0; again < 3; ++again) {
+                const Frustum frustum = scene.frustum();
+                ASSERT_EQ(copy_of(culler.cull(frustum)), by_brute_force(boxes, frustum)) << size;
+            }
+        }
+    }
+}
+
 class WideCullerChoice : public testing::Test {
   protected:
     // Part of the scene is in view.
