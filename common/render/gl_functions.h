@@ -49,6 +49,7 @@ namespace swath {
     X(RenderbufferStorage, RENDERBUFFERSTORAGE)         \
     X(Scissor, SCISSOR)                                 \
     X(ShaderSource, SHADERSOURCE)                       \
+    X(Uniform1f, UNIFORM1F)                             \
     X(Uniform1ui, UNIFORM1UI)                           \
     X(Uniform3f, UNIFORM3F)                             \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)               \

@@ -9,21 +9,30 @@ namespace swath {
 namespace {
 
 // Lambert with a head-light, per vertex. Both sides are lit: models from the world are not consistently
-// wound.
-constexpr const char* kVertexShader = R"(#version 330 core
+// wound. A model that does not move is drawn without a word of motion. That of one that does is what posed()
+// says, but for a driver that fuses product and sum, which GLSL of this version cannot forbid.
+constexpr const char* kVersion = "#version 330 core\n";
+constexpr const char* kVertexShader = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 colour;
 uniform mat4 clip_from_model;
 uniform vec3 to_light;
+#ifdef MOVES
+layout(location = 3) in vec3 motion;
+uniform float pose;
+vec3 posed() { return position + pose * motion; }
+#else
+vec3 posed() { return position; }
+#endif
 out vec3 shaded;
 void main() {
-    gl_Position = clip_from_model * vec4(position, 1.0);
+    gl_Position = clip_from_model * vec4(posed(), 1.0);
     shaded = colour.rgb * (0.2 + 0.8 * abs(dot(normal, to_light)));
 }
 )";
 
-constexpr const char* kFragmentShader = R"(#version 330 core
+constexpr const char* kFragmentShader = R"(
 in vec3 shaded;
 uniform uint object;
 layout(location = 0) out vec4 colour;
@@ -61,7 +70,8 @@ Status GlRenderer::make_program() {
     for (const auto& [kind, source] :
          {std::pair(GL_VERTEX_SHADER, kVertexShader), std::pair(GL_FRAGMENT_SHADER, kFragmentShader)}) {
         const GLuint shader = gl_.CreateShader(static_cast<GLenum>(kind));
-        gl_.ShaderSource(shader, 1, &source, nullptr);
+        const std::array<const char*, 3> parts{kVersion, scene_.moves() ? "#define MOVES\n" : "", source};
+        gl_.ShaderSource(shader, static_cast<GLsizei>(parts.size()), parts.data(), nullptr);
         gl_.CompileShader(shader);
         GLint ok = GL_FALSE;
         gl_.GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
@@ -84,6 +94,7 @@ Status GlRenderer::make_program() {
     gl_.UseProgram(program);
     clip_from_model_ = gl_.GetUniformLocation(program, "clip_from_model");
     to_light_ = gl_.GetUniformLocation(program, "to_light");
+    pose_ = gl_.GetUniformLocation(program, "pose");
     object_ = gl_.GetUniformLocation(program, "object");
     return {};
 }
@@ -92,8 +103,8 @@ Status GlRenderer::upload() {
     GLuint array = 0;
     gl_.GenVertexArrays(1, &array);
     gl_.BindVertexArray(array);
-    std::array<GLuint, 2> buffers{};
-    gl_.GenBuffers(2, buffers.data());
+    std::array<GLuint, 3> buffers{};
+    gl_.GenBuffers(scene_.moves() ? 3 : 2, buffers.data());
     const Mesh& mesh = scene_.mesh;
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
     gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(Vertex)),
@@ -110,6 +121,13 @@ Status GlRenderer::upload() {
     attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
     attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(Vertex, normal));
     attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, colour));
+    if (scene_.moves()) {
+        gl_.BindBuffer(GL_ARRAY_BUFFER, buffers[2]);
+        gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.motion.size() * sizeof(glm::vec3)),
+                       mesh.motion.data(), GL_STATIC_DRAW);
+        gl_.EnableVertexAttribArray(3);
+        gl_.VertexAttribPointer(3, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+    }
 
     GLuint framebuffer = 0;
     gl_.GenFramebuffers(1, &framebuffer);
@@ -162,6 +180,7 @@ Status GlRenderer::draw(std::span<const DrawRun> runs, const View& view, const R
     gl_.ClearBufferfv(GL_DEPTH, 0, &far);
     gl_.UniformMatrix4fv(clip_from_model_, 1, GL_FALSE, &view.clip_from_model[0][0]);
     gl_.Uniform3f(to_light_, view.to_light.x, view.to_light.y, view.to_light.z);
+    if (scene_.moves()) gl_.Uniform1f(pose_, view.pose);
     for (std::size_t begin = 0; begin < runs.size();) {
         std::size_t end = begin + 1;
         while (end < runs.size() && runs[end].object == runs[begin].object) ++end;

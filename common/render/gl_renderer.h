@@ -39,6 +39,7 @@ class GlRenderer final : public Renderer {
     GLuint depth_buffer_ = 0;
     GLint clip_from_model_ = -1;
     GLint to_light_ = -1;
+    GLint pose_ = -1;  // of a model that moves
     GLint object_ = -1;
     std::vector<GLsizei> counts_;         // of the runs of one object
     std::vector<const void*> positions_;  // in the index buffer

@@ -124,6 +124,46 @@ TEST_F(RendererTest, DrawsObjectsOverBackground) {
     EXPECT_THAT(renderer_->description(), HasSubstr("llvmpipe"));
 }
 
+// Parts that fly apart, and one that stays.
+ObjectSet moving_scene() {
+    Mesh mesh = *make_builtin("spheres", 6000);
+    mesh.motion.resize(mesh.vertices.size());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        if (i > 100) mesh.motion[i] = 0.37f * (mesh.vertices[i].position - glm::vec3(3, 2, 5));
+    return build_objects(std::move(mesh), {3, 0});
+}
+
+// Vertices are moved as posed() does it, to the last bit.
+TEST(MovingRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
+    const ObjectSet moving = moving_scene();
+    const std::vector<DrawRun> all = all_of(moving);
+    for (const RendererKind kind : {RendererKind::kOsmesa, RendererKind::kEgl})
+        for (const float pose : {0.0f, 0.1f, 1.0f / 3, 0.7f, 1.0f}) {
+            ObjectSet still = moving;
+            still.mesh.motion.clear();
+            still.end_bounds = {};
+            for (std::uint32_t i = 0; i < still.mesh.vertices.size(); ++i)
+                still.mesh.vertices[i].position = posed(moving.mesh, i, pose);
+            View view = view_of(moving);
+            view.pose = pose;
+            expect_same(draw_elsewhere(moving, all, view, kind), draw_elsewhere(still, all, view, kind),
+                        view.viewport());
+        }
+}
+
+TEST(MovingRenderer, DrawsPosesOneAfterTheOther) {
+    const ObjectSet moving = moving_scene();
+    const std::vector<DrawRun> all = all_of(moving);
+    const auto renderer = make(moving);
+    View view = view_of(moving);
+    const PixelFrame first = draw(*renderer, all, view, view.viewport());
+    view.pose = 0.5f;
+    const PixelFrame second = draw(*renderer, all, view, view.viewport());
+    EXPECT_GT(compare(first, second, view.viewport()).pixels, 100);
+    view.pose = 0;
+    expect_same(first, draw(*renderer, all, view, view.viewport()), view.viewport());
+}
+
 TEST_F(RendererTest, IsTheSameWithOsmesaAndEgl) {
     const PixelFrame egl = draw_elsewhere(scene_, all_, view_, RendererKind::kEgl);
     ASSERT_EQ(egl.rect(), view_.viewport());
