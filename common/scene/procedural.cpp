@@ -102,9 +102,37 @@ Mesh make_knot(std::size_t triangles) {
     return mesh;
 }
 
-// A sphere of `slices` around and `stacks` from pole to pole has 2 slices (stacks - 1) triangles.
-void add_sphere(Mesh& mesh, const glm::dvec3& centre, double radius, const Colour& paint, std::size_t slices,
-                std::size_t stacks) {
+// The grid of a sphere: close to that number of triangles, and about twice as many slices as stacks, since a
+// sphere of few stacks is a thin double cone.
+struct SphereGrid {
+    std::size_t slices = 6;
+    std::size_t stacks = 2;
+    std::size_t triangles() const { return 2 * slices * (stacks - 1); }
+};
+
+SphereGrid sphere_grid(double triangles) {
+    SphereGrid best;
+    double best_badness = 1e300;
+    const std::size_t likely = std::max<std::size_t>(4, rounded(std::sqrt(triangles / 4)));
+    for (std::size_t stacks = likely - 2; stacks <= likely + 3; ++stacks) {
+        const std::size_t slices =
+            std::max<std::size_t>(3, rounded(triangles / static_cast<double>(2 * (stacks - 1))));
+        const SphereGrid grid{slices, stacks};
+        const double error = std::abs(static_cast<double>(grid.triangles()) / triangles - 1);
+        const double thinness = std::abs(static_cast<double>(slices) / static_cast<double>(2 * stacks) - 1);
+        const double badness = error + 0.05 * thinness;
+        if (badness < best_badness) {
+            best_badness = badness;
+            best = grid;
+        }
+    }
+    return best;
+}
+
+// `slices` around and `stacks` from pole to pole.
+void add_sphere(Mesh& mesh, const glm::dvec3& centre, double radius, const Colour& paint,
+                const SphereGrid& grid) {
+    const auto [slices, stacks] = grid;
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const auto add = [&](const glm::dvec3& direction) {
         Vertex vertex;
@@ -143,29 +171,12 @@ Mesh make_spheres(std::size_t triangles) {
     std::size_t side = 11;
     while (side > 1 && side * side * side * 48 > triangles) --side;
     const double each = static_cast<double>(triangles) / static_cast<double>(side * side * side);
-    // The grid of a sphere: close to that number of triangles, and about twice as many slices as stacks,
-    // since a sphere of few stacks is a thin double cone.
-    std::size_t best_slices = 6;
-    std::size_t best_stacks = 2;
-    double best = 1e300;
-    const std::size_t likely = std::max<std::size_t>(4, rounded(std::sqrt(each / 4)));
-    for (std::size_t stacks = likely - 2; stacks <= likely + 3; ++stacks) {
-        const std::size_t slices =
-            std::max<std::size_t>(3, rounded(each / static_cast<double>(2 * (stacks - 1))));
-        const double error = std::abs(static_cast<double>(2 * slices * (stacks - 1)) / each - 1);
-        const double thinness = std::abs(static_cast<double>(slices) / static_cast<double>(2 * stacks) - 1);
-        const double badness = error + 0.05 * thinness;
-        if (badness < best) {
-            best = badness;
-            best_slices = slices;
-            best_stacks = stacks;
-        }
-    }
+    const SphereGrid grid = sphere_grid(each);
 
     Mesh mesh;
     const std::size_t spheres = side * side * side;
-    mesh.vertices.reserve(spheres * (best_slices * (best_stacks - 1) + 2));
-    mesh.indices.reserve(spheres * 6 * best_slices * (best_stacks - 1));
+    mesh.vertices.reserve(spheres * (grid.triangles() / 2 + 2));
+    mesh.indices.reserve(spheres * 3 * grid.triangles());
     for (std::size_t i = 0; i < spheres; ++i) {
         const auto seed = static_cast<std::uint32_t>(i);
         const glm::dvec3 place(static_cast<double>(i % side), static_cast<double>(i / side % side),
@@ -173,7 +184,55 @@ Mesh make_spheres(std::size_t triangles) {
         const glm::dvec3 jitter(random(seed, 0), random(seed, 1), random(seed, 2));
         const double radius = 0.38 + 0.2 * random(seed, 3);
         const glm::dvec3 paint = palette(random(seed, 4)) * (0.7 + 0.4 * random(seed, 5));
-        add_sphere(mesh, place + (jitter - 0.5), radius, colour(paint), best_slices, best_stacks);
+        add_sphere(mesh, place + (jitter - 0.5), radius, colour(paint), grid);
+    }
+    return mesh;
+}
+
+// A leaning ring of small spheres in all colours that becomes a globe with the colours in order: each flies
+// to a place that has nothing to do with where it was, across the ring and through all others. Fewer spheres
+// where there are fewer than 96 triangles for each.
+Mesh make_swarm(std::size_t triangles) {
+    constexpr double kRing = 10;   // radius of the ring's middle
+    constexpr double kTube = 2.5;  // ... and of its tube
+    constexpr double kGlobe = 9;
+    const std::size_t spheres = std::clamp<std::size_t>(triangles / 96, 1, 500);
+    // Triangles go by area, so that all are of about one size.
+    std::vector<double> radii(spheres);
+    double area = 0;
+    for (std::size_t i = 0; i < spheres; ++i) {
+        const double size = random(static_cast<std::uint32_t>(i), 0);
+        radii[i] = 0.4 + 0.9 * size * size * size;
+        area += radii[i] * radii[i];
+    }
+
+    Mesh mesh;
+    mesh.vertices.reserve(triangles / 2 + 4 * spheres);
+    mesh.indices.reserve(3 * (triangles + triangles / 8));
+    mesh.motion.reserve(mesh.vertices.capacity());
+    double owed = 0;  // triangles that earlier spheres did not use, so that the sum comes out
+    for (std::size_t i = 0; i < spheres; ++i) {
+        const auto seed = static_cast<std::uint32_t>(i);
+        const double around = random(seed, 1);
+        const double tube = kTube * std::sqrt(random(seed, 2));
+        const double turn = random(seed, 3);
+        const double out = kRing + tube * cosine(turn);
+        const double along = out * sine(around);
+        const double across = tube * sine(turn);
+        const glm::dvec3 start(out * cosine(around), 0.8 * along - 0.6 * across, 0.6 * along + 0.8 * across);
+        // Even steps up the globe, in an order that the ring does not know: as many on each part of it.
+        const double up = (static_cast<double>(i) + 0.5) / static_cast<double>(spheres);
+        const double height = 2 * up - 1;
+        const double aside = std::sqrt(1 - height * height);
+        const double angle = random(seed, 4);
+        const glm::dvec3 end = kGlobe * glm::dvec3(aside * cosine(angle), height, aside * sine(angle));
+        const glm::dvec3 paint = palette(0.85 * up) * (0.8 + 0.3 * random(seed, 5));
+
+        owed += static_cast<double>(triangles) * radii[i] * radii[i] / area;
+        const SphereGrid grid = sphere_grid(std::max(owed, 12.0));
+        owed -= static_cast<double>(grid.triangles());
+        add_sphere(mesh, start, radii[i], colour(paint), grid);
+        mesh.motion.resize(mesh.vertices.size(), glm::vec3(end - start));
     }
     return mesh;
 }
@@ -291,6 +350,7 @@ const std::vector<BuiltinModel>& builtin_models() {
         {"spheres", "a deep field of spheres, more than ten surfaces behind one another", 1'000'000},
         {"town", "boxes whose faces coincide with their neighbours', exact depth ties everywhere", 1'000'000},
         {"hand", "the bones of a human hand, 29 smooth closed surfaces, thin in one direction", 654'666},
+        {"swarm", "spheres that fly through one another: a model that moves", 1'000'000},
     };
     return kModels;
 }
@@ -306,6 +366,7 @@ Result<Mesh> make_builtin(const std::string& name, std::size_t triangles) {
         if (name == "knot") return make_knot(triangles);
         if (name == "spheres") return make_spheres(triangles);
         if (name == "hand") return make_hand(triangles);
+        if (name == "swarm") return make_swarm(triangles);
         return make_town(triangles);
     }
     return fail("no built-in model `{}`, there are: {}", name, names);

@@ -15,6 +15,8 @@ namespace swath {
 //   town     boxes on a plane whose faces coincide with their neighbours': exact depth ties everywhere
 //   hand     the bones of a human hand: a stand-in for the Hand of Samanta 2000, which is not to be had, with
 //            as many triangles and, at octree depth 4, about as many objects (643)
+//   swarm    five hundred spheres that move, each along a straight line of its own: what is near at pose 0 is
+//            anywhere at pose 1
 struct BuiltinModel {
     std::string name;
     std::string what;

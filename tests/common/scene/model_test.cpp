@@ -62,8 +62,8 @@ TEST(ModelTest, a_builtin_loads_by_name_and_number_of_triangles) {
 
 TEST(ModelTest, a_wrong_builtin_says_what_there_is) {
     EXPECT_EQ(why_not("builtin:cow"),
-              "builtin:cow: no built-in model `cow`, there are: knot, spheres, town, hand");
-    EXPECT_THAT(why_not("builtin:"), HasSubstr("there are: knot, spheres, town, hand"));
+              "builtin:cow: no built-in model `cow`, there are: knot, spheres, town, hand, swarm");
+    EXPECT_THAT(why_not("builtin:"), HasSubstr("there are: knot, spheres, town, hand, swarm"));
     EXPECT_EQ(why_not("builtin:knot:many"), "builtin:knot:many: `many` is no number of triangles");
     EXPECT_THAT(why_not("builtin:knot:"), HasSubstr("no number of triangles"));
     EXPECT_THAT(why_not("builtin:knot:-5"), HasSubstr("no number of triangles"));

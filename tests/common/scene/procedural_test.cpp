@@ -41,10 +41,10 @@ bool passes(const Mesh& mesh, std::size_t t, int axis, const glm::dvec2& at) {
     return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
 }
 
-TEST(ProceduralTest, there_is_a_knot_a_field_of_spheres_a_town_and_a_hand) {
+TEST(ProceduralTest, there_is_a_knot_a_field_of_spheres_a_town_a_hand_and_a_swarm) {
     std::set<std::string> names;
     for (const BuiltinModel& model : builtin_models()) names.insert(model.name);
-    EXPECT_EQ(names, (std::set<std::string>{"knot", "spheres", "town", "hand"}));
+    EXPECT_EQ(names, (std::set<std::string>{"knot", "spheres", "town", "hand", "swarm"}));
 }
 
 TEST(ProceduralTest, every_model_is_valid_and_as_large_as_wished_within_5_percent) {
@@ -81,6 +81,7 @@ TEST(ProceduralTest, the_models_have_the_same_bits_on_every_machine) {
     EXPECT_EQ(hex("spheres"), "09313ffddc5998214560abc82366cdf9ab50d2a10a6e49a0e7b8d5c99bd6be2c");
     EXPECT_EQ(hex("town"), "c2393ee12d73b7746e8cc66d1d2f0301dbbdbdb546048f698a558e8439e929c0");
     EXPECT_EQ(hex("hand"), "427f5d0aac85d0e2f5c36cc2188a14d70eb9b17421eb458781bac05f406a370f");
+    EXPECT_EQ(hex("swarm"), "f8506d25e13f9db99abaf4dc749f3e4dec0b847656f2b4591ba53a682c3c42bf");
 }
 
 TEST(ProceduralTest, a_wish_out_of_the_limits_is_refused) {
@@ -95,7 +96,7 @@ TEST(ProceduralTest, a_wish_out_of_the_limits_is_refused) {
 
 TEST(ProceduralTest, an_unknown_name_is_refused_with_the_list_of_names) {
     EXPECT_EQ(make_builtin("teapot", 1000).error().message,
-              "no built-in model `teapot`, there are: knot, spheres, town, hand");
+              "no built-in model `teapot`, there are: knot, spheres, town, hand, swarm");
 }
 
 TEST(ProceduralTest, the_knot_is_closed_smooth_and_of_even_triangles) {
@@ -245,6 +246,33 @@ TEST(ProceduralTest, the_hands_bones_are_the_right_way_out_and_of_bony_sizes) {
         EXPECT_GT(size, 200) << "cubic millimetres of bone " << bone;
         EXPECT_LT(size, 30'000) << "cubic millimetres of bone " << bone;
     }
+}
+
+TEST(ProceduralTest, the_swarms_spheres_keep_their_shape_and_only_they_move) {
+    for (const BuiltinModel& model : builtin_models())
+        EXPECT_EQ(make(model.name, 10'000).motion.empty(), model.name != "swarm") << model.name;
+    const Mesh mesh = make("swarm", 100'000);
+    ASSERT_EQ(mesh.motion.size(), mesh.vertices.size());
+    const std::vector<std::size_t> piece = pieces(mesh);
+    EXPECT_EQ(std::set<std::size_t>(piece.begin(), piece.end()).size(), 500u);
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+        for (std::size_t c = 0; c < 3; ++c)
+            ASSERT_EQ(mesh.motion[mesh.indices[3 * t + c]], mesh.motion[piece[t]]);
+}
+
+// What cells of an octree have in common at pose 0 is spread out at pose 1.
+TEST(ProceduralTest, the_swarm_leaves_nobody_where_he_was) {
+    const ObjectSet set = build_objects(make("swarm", 100'000), {.depth = 3, .objects = 0});
+    double start = 0;
+    double end = 0;
+    for (const Object& object : set.objects) {
+        const auto half_area = [](const glm::dvec3& size) {
+            return size.x * size.y + size.y * size.z + size.z * size.x;
+        };
+        start += half_area(glm::dvec3(object.box.size()));
+        end += half_area(glm::dvec3(object.end_box.size()));
+    }
+    EXPECT_GT(end, 8 * start);
 }
 
 TEST(ProceduralTest, the_hand_is_cut_into_about_as_many_objects_as_the_papers) {
