@@ -1,6 +1,7 @@
 #include "client/options.h"
 
 #include <charconv>
+#include <cmath>
 #include <iostream>
 
 #include "common/scene/procedural.h"
@@ -21,6 +22,24 @@ Status parse_colour(const std::string& text, Rgb& colour) {
     return {};
 }
 
+// "1,0.5,-2"
+Status parse_light(const std::string& text, std::optional<glm::vec3>& light) {
+    glm::vec3 to(0);
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    bool ok = true;
+    for (int i = 0; i < 3 && ok; ++i) {
+        if (i > 0) ok = at != end && *at++ == ',';
+        const auto [stop, error] = std::from_chars(at, end, to[i]);
+        ok = ok && error == std::errc{} && std::isfinite(to[i]);
+        at = stop;
+    }
+    if (!ok || at != end || to == glm::vec3(0))
+        return fail("--light: '{}': expected X,Y,Z, three finite numbers of which one is not 0", text);
+    light = to;
+    return {};
+}
+
 std::string builtin_list() {
     std::string list;
     for (const BuiltinModel& model : builtin_models())
@@ -34,6 +53,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     ClientOptions options;
     std::string size = "1280x960";
     std::string background = "101218";
+    std::string light;
     std::string algorithm = "hybrid";
     std::string renderer = "osmesa";
     std::string cull = "wide";
@@ -98,6 +118,10 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     octree->excludes(objects);
     app.add_option("--size", size, "of the picture in pixels")->capture_default_str();
     app.add_option("--background", background, "colour behind the model, RRGGBB")->capture_default_str();
+    auto* light_at =
+        app.add_option("--light", light, "X,Y,Z in the model's space, towards the light [the eye]");
+    app.add_option("--pose", options.pose, "0 to 1: where a model that moves is held [to and fro; live 0]")
+        ->check(number_within(0, 1));
     auto* frame_count = app.add_option("--frames", frames, "how many [50, or all of a camera file]")
                             ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
                             ->excludes(viewer);
@@ -136,6 +160,8 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     options.width = parsed_size->width;
     options.height = parsed_size->height;
     if (const auto s = parse_colour(background, options.background); !s) return refuse(s.error());
+    if (light_at->count() > 0)
+        if (const auto s = parse_light(light, options.light); !s) return refuse(s.error());
     const auto parsed = parse_algorithm(algorithm);
     if (!parsed) return refuse(parsed.error());
     options.algorithm = *parsed;

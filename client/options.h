@@ -32,6 +32,8 @@ struct ClientOptions {
     int height = 960;
     Rgb background{16, 18, 24};
     std::optional<std::size_t> frames;
+    std::optional<float> pose;       // of a model that moves, 0 to 1
+    std::optional<glm::vec3> light;  // towards it, not 0
     std::string path = "orbit";
     std::uint64_t seed = 1;
     double zoom = 1;

@@ -41,11 +41,22 @@ Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) 
     return LocalCluster::start(local);
 }
 
+std::optional<glm::vec3> to_light(const ClientOptions& options) {
+    if (!options.light) return std::nullopt;
+    return glm::vec3(glm::normalize(glm::dvec3(*options.light)));
+}
+
+// Of all frames; none: of each as the path has it.
+std::optional<float> pose_of(const ClientOptions& options, const ObjectSet& scene) {
+    if (!scene.moves()) return 0.0f;
+    return options.view ? options.pose.value_or(0) : options.pose;
+}
+
 // What a live run starts with: the path's first camera.
 Result<LiveView::Settings> live_settings(const ClientOptions& options, const ObjectSet& scene,
                                          const Camera& home) {
     LiveView::Settings live;
-    live.bounds = scene.bounds;
+    live.bounds = scene.swept_bounds();
     live.limits = options.view_limits;
     live.seed = options.seed;
     live.start.camera = numbers_of(home);
@@ -92,12 +103,15 @@ std::string command_of(const ClientOptions& options, const LiveWish& wish,
         if (options.shadows) how += " --shadows";
         if (options.dynamic) how += " --dynamic";
     }
+    std::string look;
+    if (options.pose) look += fmt::format(" --pose {}", *options.pose);
+    if (options.light)
+        look += fmt::format(" --light={},{},{}", options.light->x, options.light->y, options.light->z);
     return fmt::format(
         "swath-client {} {} --algorithm {} --renderer {} --cull {} {} --size {}x{} "
-        "--background "
-        "{:02x}{:02x}{:02x} --path view.camera --out view",
+        "--background {:02x}{:02x}{:02x}{} --path view.camera --out view",
         quoted(options.model), where, name_of(wish.algorithm), how, name_of(wish.setup.cull), what,
-        wish.width, wish.height, options.background[0], options.background[1], options.background[2]);
+        wish.width, wish.height, options.background[0], options.background[1], options.background[2], look);
 }
 
 Status save_timeline(const std::string& file, const std::vector<FrameTimeline>& frames) {
@@ -123,7 +137,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
     PathOptions path{options.frames, options.seed,
                      static_cast<float>(options.width) / static_cast<float>(options.height),
                      static_cast<float>(options.zoom)};
-    auto cameras = make_path(options.path, scene.bounds, path);
+    auto cameras = make_path(options.path, scene.swept_bounds(), path);
     if (!cameras) return tl::unexpected(cameras.error());
 
     const PictureWriter writer(options.out, options.format);
@@ -144,6 +158,8 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         job.renderer.threads = drawing_threads(options.threads);
         job.cull = options.cull;
         job.cameras = std::move(*cameras);
+        job.pose = pose_of(options, scene);
+        job.to_light = to_light(options);
         job.width = options.width;
         job.height = options.height;
         job.background = options.background;
@@ -172,6 +188,8 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         job.dynamic = options.dynamic;
         job.cull = options.cull;
         job.algorithm = options.algorithm;
+        job.pose = pose_of(options, scene);
+        job.to_light = to_light(options);
         if (options.view) {
             auto live = live_settings(options, scene, cameras->front());
             if (!live) return tl::unexpected(live.error());

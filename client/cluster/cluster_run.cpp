@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "client/cost/frame_work.h"
+#include "client/path/path.h"
 #include "common/base/check.h"
 #include "common/timeline/phase_timer.h"
 
@@ -146,7 +147,7 @@ void ClusterRun::tell_session() {
     // Viewers are told the file's name, not where it lies.
     SessionFacts facts{std::filesystem::path(job_.model).filename().string(),
                        job_.scene->mesh.triangle_count(),
-                       job_.scene->bounds,
+                       job_.scene->swept_bounds(),
                        {},
                        job_.background};
     for (const ServerId server : machines_->members())
@@ -227,7 +228,9 @@ Status ClusterRun::issue(FrameNumber number) {
     std::vector<Span> spans;
     PhaseTimer timer(clock_, spans);
     const FrameOrder order = order_of(number);
-    const View view = make_view(order.camera, order.width, order.height);
+    View view = make_view(order.camera, order.width, order.height);
+    view.pose = job_.pose.value_or(path_pose(number));
+    if (job_.to_light) view.to_light = *job_.to_light;
     auto projected = project(job_.scene->objects, view, Accounting::kCluster, costs_->costs());
     FramePlan plan = partitioner(order.algorithm).partition({number, view, projected, order.servers});
     if (const auto wrong = problem(plan, job_.scene->objects.size(), grouping_of(order.algorithm)))

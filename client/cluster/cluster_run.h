@@ -37,7 +37,9 @@ struct ClusterJob {
     bool shadows = false;  // of ray casters
     bool dynamic = false;
     Algorithm algorithm = Algorithm::kHybrid;
-    std::vector<Camera> cameras;  // a frame each; none in a live run
+    std::vector<Camera> cameras;        // a frame each; none in a live run
+    std::optional<float> pose = 0;      // of all frames; none: path_pose() of each
+    std::optional<glm::vec3> to_light;  // unit, model space; none: a head-light
     // A live run: viewers say what is drawn, until somebody ends it. Renderers, cull, algorithm and size are
     // then its start's.
     std::optional<LiveView::Settings> live;

@@ -33,7 +33,7 @@ struct FrameOrder {
 class LiveView {
   public:
     struct Settings {
-        Box bounds;      // the model's, not empty
+        Box bounds;      // the model's, at every pose, not empty
         LiveWish start;  // until somebody wishes; its setup is in effect
         WishLimits limits;
         std::uint64_t seed = 1;  // of the random path

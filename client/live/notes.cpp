@@ -97,9 +97,14 @@ std::string objects_note(std::uint64_t generation, const ObjectSet& scene) {
               {"depth", scene.cut.by == ObjectsBy::kUniform ? Json(scene.cut.depth) : Json()},
               {"count", scene.objects.size()},
               {"boxes", nullptr}};
+    note["end_boxes"] = nullptr;
     if (scene.objects.size() <= kMaxBoxes) {
         Json& boxes = note["boxes"] = Json::array();
         for (const Object& object : scene.objects) put_box(object.box, boxes);
+        if (scene.moves()) {
+            Json& ends = note["end_boxes"] = Json::array();
+            for (const Object& object : scene.objects) put_box(object.end_box, ends);
+        }
     }
     return text_of(note);
 }
@@ -113,6 +118,7 @@ std::string plan_note(const FrameOrder& order, const FramePlan& plan, double ove
               {"width", order.width},
               {"height", order.height},
               {"camera", decimals(order.numbers)},
+              {"pose", decimal(plan.view.pose)},
               {"generation", generation},
               {"overlap", overlap}};
     Json& clip = note["clip"] = Json::array();

@@ -34,7 +34,7 @@ enum class Algorithm {
     kHybrid,    // tiles and groups from one sweep of the screen, every frame (Samanta 2000, section 5)
     kMahd,      // sort-first: tiles cut along a mesh of loads, objects on every tile that they overlap
     kKdSplit,   // sort-first: tiles cut where the work of overlapping objects is equal (Samanta 1999)
-    kSortLast,  // groups made once in model space, interleaved tiles (Samanta 2000, section 7.4)
+    kSortLast,  // groups made once in model space, at pose 0, interleaved tiles (Samanta 2000, section 7.4)
 };
 
 // The one list, in the order in which they are named everywhere.

@@ -41,11 +41,12 @@ std::vector<ProjectedObject> project(std::span<const Object> objects, const View
     std::vector<ProjectedObject> projected(objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
         ProjectedObject& object = projected[i];
-        object.box = bounds.of(objects[i].box);
+        const Box box = objects[i].box_at(view.pose);
+        object.box = bounds.of(box);
         object.visible = !object.box.empty();
         if (object.visible || accounting == Accounting::kPaper)
             object.work = costs.empty() ? objects[i].triangle_count : costs[i];
-        if (!object.visible) object.box = border_pixel(objects[i].box, view);
+        if (!object.visible) object.box = border_pixel(box, view);
     }
     return projected;
 }

@@ -21,10 +21,10 @@ struct ProjectedObject {
 // Samanta 2000, which does not cull (the simulator's `paper` mode).
 enum class Accounting { kCluster, kPaper };
 
-// Where each object shows on the screen: its screen_bounds, or for one that cannot be seen a single pixel of
-// the border, nearest to its centre. `costs` are the triangles that each is expected to cost if it can be
-// seen (see ObjectCosts); where there are none, all that it has. The view must have at least one pixel.
-// O(objects).
+// Where each object shows on the screen: the screen_bounds of its box at the view's pose, or for one that
+// cannot be seen a single pixel of the border, nearest to its centre. `costs` are the triangles that each is
+// expected to cost if it can be seen (see ObjectCosts); where there are none, all that it has. The view must
+// have at least one pixel. O(objects).
 std::vector<ProjectedObject> project(std::span<const Object> objects, const View& view,
                                      Accounting accounting = Accounting::kCluster,
                                      std::span<const std::uint32_t> costs = {});

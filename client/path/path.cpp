@@ -121,6 +121,11 @@ Camera with_depth_range(Camera camera, const Box& bounds) {
     return camera;
 }
 
+float path_pose(FrameNumber frame) {
+    const FrameNumber at = frame % (2 * kPoseFrames);
+    return static_cast<float>(std::min(at, 2 * kPoseFrames - at)) / static_cast<float>(kPoseFrames);
+}
+
 Result<std::vector<Camera>> make_path(const std::string& spec, const Box& bounds,
                                       const PathOptions& options) {
     CHECK(!bounds.empty());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/ids.h"
 #include "common/base/result.h"
 #include "common/geometry/box.h"
 #include "common/geometry/camera.h"
@@ -28,12 +29,17 @@ inline constexpr std::size_t kMaxPathFrames = 1'000'000;
 //            frame at a random elevation within 0.65 rad, 0.3 rad of view, the box's longest side times
 //            `zoom` as high as the screen. The same seed gives the same bits everywhere.
 //   else     a file of cameras, see read_cameras; repeated from its start if it has fewer than `frames`
-// All have the depth range of with_depth_range(). `bounds` is the model's, not empty. Errors name the option,
-// or the file and line.
+// All have the depth range of with_depth_range(). `bounds` is the model's, at every pose, not empty. Errors
+// name the option, or the file and line.
 Result<std::vector<Camera>> make_path(const std::string& spec, const Box& bounds, const PathOptions& options);
 
 // The camera with near and far planes about `bounds` as seen from there, so that nothing of it is clipped
 // in depth. From inside, or closer than that, near is a thousandth of the box's diagonal.
 Camera with_depth_range(Camera camera, const Box& bounds);
+
+// In which pose a frame of a run along a path shows a model that moves: from 0 to 1 in kPoseFrames frames,
+// back to 0 in as many, and so on.
+inline constexpr std::size_t kPoseFrames = 30;
+float path_pose(FrameNumber frame);
 
 }  // namespace swath

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "client/path/path.h"
 #include "common/cull/leaf_cull.h"
 #include "common/image/pixel_codec.h"
 #include "common/renderers/make_renderer.h"
@@ -25,7 +26,9 @@ Result<std::vector<FrameTimeline>> render_single(
         MachineTimeline machine;
         machine.machine = kSingleMachine;
         PhaseTimer timer(clock, machine.spans);
-        const View view = make_view(job.cameras[number], job.width, job.height);
+        View view = make_view(job.cameras[number], job.width, job.height);
+        view.pose = job.pose.value_or(path_pose(number));
+        if (job.to_light) view.to_light = *job.to_light;
         const DrawList list = cull.cull(all, view, view.viewport());
         machine[Counter::kTriangles] = list.triangles;
         machine[Counter::kObjects] = list.objects;

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/base/clock.h"
@@ -20,6 +21,8 @@ struct SingleJob {
     RendererSetup renderer;  // its threads cull, too
     CullAlgorithm cull = CullAlgorithm::kWide;
     std::vector<Camera> cameras;
+    std::optional<float> pose = 0;      // of all frames; none: path_pose() of each
+    std::optional<glm::vec3> to_light;  // unit, model space; none: a head-light
     int width = 1280;
     int height = 960;
     Rgb background{};

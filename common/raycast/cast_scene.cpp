@@ -29,11 +29,22 @@ bool has(const std::vector<std::uint32_t>& bits, std::size_t i) { return (bits[i
 }  // namespace
 
 CastScene::CastScene(const ObjectSet& scene, std::size_t threads, SahDevice device)
-    : scene_(scene), threads_(threads), builder_(threads, device), scale_(scale_for(scene.bounds)) {
-    const Mesh& mesh = scene.mesh;
-    positions_.resize(mesh.vertices.size());
-    for (std::size_t v = 0; v < positions_.size(); ++v) positions_[v] = mesh.vertices[v].position * scale_;
-    corners_ = kernel_corners(positions_, mesh.indices);
+    : scene_(scene), threads_(threads), builder_(threads, device), scale_(scale_for(scene.swept_bounds())) {
+    positions_.resize(scene.mesh.vertices.size());
+    move();
+}
+
+void CastScene::pose(float pose) {
+    if (pose == pose_) return;
+    pose_ = pose;
+    move();
+}
+
+// Scaling by a power of two changes no digit.
+void CastScene::move() {
+    for (std::uint32_t v = 0; v < positions_.size(); ++v)
+        positions_[v] = posed(scene_.mesh, v, pose_) * scale_;
+    kernel_corners(positions_, scene_.mesh.indices, corners_);
 }
 
 Status CastScene::build_all(const SahSettings& settings) {

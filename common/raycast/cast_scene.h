@@ -22,6 +22,9 @@ class CastScene {
     const SahBuilder& builder() const { return builder_; }
     const SahTree& tree() const { return tree_; }
 
+    // Puts the triangles where they are at a pose; 0 at first. What was built before is then of another one.
+    void pose(float pose);
+
     // A tree over all triangles.
     Status build_all(const SahSettings& settings);
     // A tree over those of `runs` only, at least one.
@@ -36,10 +39,13 @@ class CastScene {
     glm::vec3 corner(std::uint32_t triangle, int number) const;  // scaled
 
   private:
-    ObjectSet const& scene_;
+    void move();
+
+    const ObjectSet& scene_;
     std::size_t threads_;
     SahBuilder builder_;
     float scale_ = 1;
+    float pose_ = 0;
     std::vector<glm::vec3> positions_;
     std::vector<float> corners_;
     SahTree tree_;

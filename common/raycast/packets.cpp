@@ -38,13 +38,12 @@ const PacketKernels& packet_kernels(InstructionSet set) {
     return portable::kPacketKernels;
 }
 
-std::vector<float> kernel_corners(std::span<const glm::vec3> positions,
-                                  std::span<const std::uint32_t> indices) {
-    std::vector<float> corners(3 * indices.size() + kPacketRays);
+void kernel_corners(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
+                    std::vector<float>& corners) {
+    corners.resize(3 * indices.size() + kPacketRays);
     for (std::size_t i = 0; i < indices.size(); ++i)
         for (int axis = 0; axis < 3; ++axis)
             corners[3 * i + static_cast<std::size_t>(axis)] = positions[indices[i]][axis];
-    return corners;
 }
 
 KernelTree kernel_tree(const SahTree& tree, std::span<const float> corners) {

@@ -19,8 +19,8 @@ const PacketKernels& packet_kernels(InstructionSet set);
 // The corners of triangles as kernels read them: nine numbers a triangle, and some behind the last one that
 // are not read as corners. Kernels square what is as large as a coordinate, so coordinates must not be beyond
 // 1e9 (or scaled).
-std::vector<float> kernel_corners(std::span<const glm::vec3> positions,
-                                  std::span<const std::uint32_t> indices);
+void kernel_corners(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
+                    std::vector<float>& corners);
 
 KernelTree kernel_tree(const SahTree& tree, std::span<const float> corners);
 

@@ -49,7 +49,7 @@ class RaycastRenderer final : public Renderer {
             pixels_.clear(rect);
             return {};
         }
-        if (const auto status = prepare(runs); !status) return status;
+        if (const auto status = prepare(runs, view.pose); !status) return status;
         const int columns = (rect.width() + kBlock - 1) / kBlock;
         const int blocks = columns * ((rect.height() + kBlock - 1) / kBlock);
         arena_.execute([&] {
@@ -82,13 +82,15 @@ class RaycastRenderer final : public Renderer {
     }
 
   private:
-    Status prepare(std::span<const DrawRun> runs) {
+    Status prepare(std::span<const DrawRun> runs, float pose) {
+        const bool moved = pose != pose_;
+        cast_.pose(pose);
+        pose_ = pose;
+        if (setup_.dynamic && !setup_.shadows) return cast_.build(runs, kFastSah);
         // Shadows are cast by what is not drawn, too.
-        if (setup_.dynamic) {
-            if (const auto status = setup_.shadows ? cast_.build_all(kFastSah) : cast_.build(runs, kFastSah);
-                !status)
+        if (setup_.dynamic || moved) {
+            if (const auto status = cast_.build_all(setup_.dynamic ? kFastSah : kDefaultSah); !status)
                 return status;
-            if (!setup_.shadows) return {};
         }
         cast_.want(runs);
         return {};
@@ -177,6 +179,7 @@ class RaycastRenderer final : public Renderer {
     const PacketKernels& kernels_;
     tbb::task_arena arena_;
     CastScene cast_;
+    float pose_ = 0;                 // of the last draw
     std::vector<ObjectId> objects_;  // of each triangle
     PixelFrame pixels_;              // of the last draw
 };

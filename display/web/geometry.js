@@ -40,6 +40,13 @@ export function visible_segment(a, b, width, height) {
     return segment;
 }
 
+// Where boxes are at a pose of 0 to 1: flat lists of (min, max) at pose 0 and at pose 1; without the second
+// nothing moves.
+export function boxes_at(boxes, end_boxes, pose) {
+    if (!end_boxes || !(pose > 0)) return boxes;
+    return boxes.map((from, i) => from + pose * (end_boxes[i] - from));
+}
+
 // Box number `id` of a flat list of (min, max): {edges, depth}, where edges has five numbers for each that is
 // seen, its segment and its place among the twelve, and depth is that of the centre; null if nothing is seen.
 export function wireframe(boxes, id, clip, width, height) {

@@ -3,7 +3,7 @@
 // follows from the plan and the objects note.
 
 import {css_colour, ink_on, server_colour} from './colours.js';
-import {area, borders, group_ids, hull, rectangles, wireframe} from './geometry.js';
+import {area, borders, boxes_at, group_ids, hull, rectangles, wireframe} from './geometry.js';
 
 const kDim = 0.4;  // black over the model: 0.6 of its brightness remain
 const kTint = 0.32;
@@ -44,8 +44,9 @@ export function draw_overlays(canvas, plan, objects, show, hot = null, at_rest =
     if (show.has('tiles')) draw.tints();
     if (show.has('swaths')) draw.swaths();
     if (show.has('tiles') || show.has('swaths') || show.has('overlap')) draw.borders();
-    const boxes = objects?.generation === plan.generation ? objects.boxes : null;
-    if (boxes && objects.count <= kMostBoxes && plan.clip?.length === 16) {
+    const known = objects?.generation === plan.generation && objects.boxes;
+    if (known && objects.count <= kMostBoxes && plan.clip?.length === 16) {
+        const boxes = boxes_at(objects.boxes, objects.end_boxes, plan.pose);
         const servers = servers_by_object(plan);
         if (show.has('boxes')) draw.boxes(boxes, () => [kBoxes.colour], kBoxes.opacity);
         if (show.has('groups') && servers) {

@@ -10,6 +10,7 @@
 #include "client/cost/frame_work.h"
 #include "client/cost/pricer.h"
 #include "client/director/director.h"
+#include "client/path/path.h"
 #include "common/base/check.h"
 #include "display/assemble/assembly.h"
 #include "server/swap/frame_swap.h"
@@ -90,7 +91,8 @@ class Cluster {
     }
 
     void issue(FrameNumber number) {
-        const View view = make_view(scenario_.cameras[number], scenario_.width, scenario_.height);
+        View view = make_view(scenario_.cameras[number], scenario_.width, scenario_.height);
+        view.pose = path_pose(number);
         const Accounting accounting =
             scenario_.hardware.server.culls ? Accounting::kCluster : Accounting::kPaper;
         const auto objects = project(scenario_.objects, view, accounting);

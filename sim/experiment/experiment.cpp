@@ -17,7 +17,8 @@ Outcome run_path(const Experiment& experiment, const std::vector<Camera>& camera
     const std::span<const Object> model = experiment.model->scene.objects;
     const auto partitioner = make_partitioner(experiment.algorithm, model);
     for (FrameNumber frame = 0; frame < cameras.size(); ++frame) {
-        const View view = make_view(cameras[frame], experiment.width, experiment.height);
+        View view = make_view(cameras[frame], experiment.width, experiment.height);
+        view.pose = path_pose(frame);
         const auto objects = project(model, view, Accounting::kPaper);
         const FramePlan plan = partitioner->partition({frame, view, objects, experiment.servers});
         outcome.paper.add(paper_frame(plan, objects, experiment.algorithm, *experiment.hardware));

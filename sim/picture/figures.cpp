@@ -31,7 +31,8 @@ std::vector<ObjectId> replicated_objects(const FramePlan& plan, std::size_t obje
 
 Picture replication_figure(Picture frame, const FramePlan& plan, std::span<const Object> objects) {
     std::vector<Box> boxes;
-    for (const ObjectId id : replicated_objects(plan, objects.size())) boxes.push_back(objects[id].box);
+    for (const ObjectId id : replicated_objects(plan, objects.size()))
+        boxes.push_back(objects[id].box_at(plan.view.pose));
     Picture picture = with_tile_borders(dimmed(std::move(frame), kBrightness), plan);
     return with_wireframes(std::move(picture), boxes, plan.view, kReplicated);
 }
@@ -42,7 +43,7 @@ Picture transfer_figure(Picture frame, const FramePlan& plan) {
 
 Picture boxes_figure(Picture frame, const View& view, std::span<const Object> objects) {
     std::vector<Box> boxes;
-    for (const Object& object : objects) boxes.push_back(object.box);
+    for (const Object& object : objects) boxes.push_back(object.box_at(view.pose));
     return with_wireframes(dimmed(std::move(frame), kBrightness), boxes, view, kBoxes);
 }
 

@@ -112,7 +112,7 @@ Status Scenario::add_model(const ModelName& name, const ScenarioOptions& options
         cuts.emplace_back(&model, which);
     }
     for (const PictureSize& size : options.sizes) {
-        auto paths = make_paths(options.path, models_.back().scene.bounds, size.width, size.height);
+        auto paths = make_paths(options.path, models_.back().scene.swept_bounds(), size.width, size.height);
         if (!paths) return tl::unexpected(paths.error());
         const Paths& cameras = paths_.emplace_back(std::move(*paths));
         add_settings(

@@ -147,7 +147,7 @@ Status StudyContext::add_subject(const ModelName& name, bool stand_in) {
     if (const auto zoom = options_.zooms.find(name.name); zoom != options_.zooms.end())
         subject.zoom = zoom->second;
     auto paths = make_paths({"random", options_.frames, subject.zoom, options_.seed, options_.seeds},
-                            subject.model.scene.bounds, kPaperWidth, kPaperHeight);
+                            subject.model.scene.swept_bounds(), kPaperWidth, kPaperHeight);
     if (!paths) return tl::unexpected(paths.error());
     subject.paths = std::move(*paths);
     subjects_.push_back(std::move(subject));

@@ -59,6 +59,15 @@ TEST_F(Culling, ChangesNoPixelInsideTheConferenceRoom) {
     compare({conference, "--size", "640x480", "--path", cameras}, {4, 2});
 }
 
+TEST_F(Culling, ChangesNoPixelInsideASwarmThatMoves) {
+    std::string cameras;
+    for (int i = 0; i < 8; ++i)
+        cameras += fmt::format("{} {} 4  {} 0 0  0 1 0  60\n", 8 - 2 * i, i - 3, 2 * i - 9);
+    compare({"builtin:swarm:20000", "--size", "320x240", "--path", files_.write("swarm.txt", cameras),
+             "--frames", "32"},
+            {3, 2});
+}
+
 TEST_F(Culling, ByFewLargeObjectsChangesNoPixelEither) {
     compare(inside_the_town() + Arguments{"--objects", "4"}, {3, 7});
 }

@@ -61,6 +61,18 @@ const std::vector<Scene> kScenes{
      {"builtin:spheres:40000", "--size", "320x240"},
      {2, 4, 7},
      "0 0 0  0 0 1  0 1 0  90\n0 0 0  1 0 0  0 1 0  90\n"},
+    // From pose 0 to 1 and on its way back.
+    {"SwarmOnItsWay", {"builtin:swarm:20000", "--size", "160x121", "--frames", "34"}, {1, 2, 3, 4}},
+    {"SwarmOnARandomPath",
+     {"builtin:swarm:30000", "--size", "321x240", "--frames", "16", "--path", "random", "--seed", "5",
+      "--zoom", "2"},
+     {1, 2, 3, 4}},
+    {"SwarmHeldStill",
+     {"builtin:swarm:20000", "--size", "320x240", "--frames", "2", "--pose", "0.62", "--objects", "60"},
+     {2, 4, 7}},
+    {"InLightFromTheSide",
+     {"builtin:knot:20000", "--size", "320x240", "--frames", "2", "--light", "-3,0.5,1e-3"},
+     {1, 3, 4}},
     {"DrawnWithEgl",
      {"builtin:town:20000", "--size", "641x480", "--frames", "2", "--renderer", "egl"},
      {1, 2, 5}},
@@ -117,6 +129,38 @@ TEST_F(Pictures, AreTheSameFromOsmesaAndEgl) {
     const std::string expected = render(arguments + Arguments{"--single", "--renderer", "osmesa"});
     expect_same_pictures(expected, render(arguments + Arguments{"--single", "--renderer", "egl"}));
     expect_same_pictures(expected, render(arguments + Arguments{"--local", "3", "--renderer", "egl"}));
+}
+
+TEST_F(Pictures, OfAPathHoldAMovingModelWhereverItIs) {
+    const Arguments arguments{"builtin:swarm:20000", "--single", "--size", "64x48"};
+    const auto picture = [&](const Arguments& more, const char* name) {
+        return contents(render(arguments + more) + "/" + name);
+    };
+    const std::string camera = files_.write("camera.txt", "5 5 60  0 0 0  0 1 0  30\n");
+    const Arguments path{"--path", camera, "--frames", "46"};
+    const std::string moving = render(arguments + path);
+    const auto frame = [&](const char* name) { return contents(moving + "/" + name); };
+    EXPECT_NE(frame("frame_0000.png"), frame("frame_0030.png"));
+    EXPECT_EQ(frame("frame_0015.png"), frame("frame_0045.png"));
+    EXPECT_EQ(frame("frame_0000.png"), picture({"--path", camera, "--pose", "0"}, "frame_0000.png"));
+    EXPECT_EQ(frame("frame_0015.png"), picture({"--path", camera, "--pose", "0.5"}, "frame_0000.png"));
+    EXPECT_EQ(frame("frame_0030.png"),
+              picture({"--path", camera, "--pose", "1", "--frames", "3"}, "frame_0002.png"));
+}
+
+TEST_F(Pictures, OfAStillModelKnowNoPose) {
+    const Arguments arguments{"builtin:knot:20000", "--single", "--size", "64x48", "--frames", "2"};
+    expect_same_pictures(render(arguments), render(arguments + Arguments{"--pose", "0.7"}));
+}
+
+TEST_F(Pictures, AreLitFromWhereTheLightIs) {
+    const Arguments arguments{"builtin:knot:20000", "--single", "--size", "64x48", "--frames", "1"};
+    const std::string light = render(arguments + Arguments{"--light", "-1,2,0.5"});
+    const std::string name = "/frame_0000.png";
+    EXPECT_NE(contents(render(arguments) + name), contents(light + name));
+    // Only the direction counts.
+    expect_same_pictures(light, render(arguments + Arguments{"--light=-1e30,2e30,5e29"}));
+    EXPECT_NE(contents(render(arguments + Arguments{"--light", "1,2,0.5"}) + name), contents(light + name));
 }
 
 TEST_F(Pictures, DoNotDependOnHowFinelyAModelIsCut) {

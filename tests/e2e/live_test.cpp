@@ -58,6 +58,23 @@ TEST_F(Live, StillPicturesEqualThoseOfOneProcessForEveryAlgorithmAndNumberOfServ
     expect_end(*client);
 }
 
+TEST_F(Live, StillPicturesHaveTheRunsPoseAndLightWhichAreInTheCommandToo) {
+    const Arguments look{"builtin:swarm:20000", "--pose", "0.4", "--light=-1,2,0.5"};
+    const auto client = start("swath-client", look + Arguments{"--local", "2", "--view", "0"});
+    LiveViewer viewer(page(*client));
+    const auto still = viewer.still(
+        viewer.wish({{"camera", {5, 5, 60, 0, 0, 0, 0, 1, 0, 30}}, {"width", 320}, {"height", 240}}));
+    EXPECT_EQ(still.header["plan"]["pose"], 0.4);
+    const std::string camera = files_.write("view.camera", viewer.camera_line());
+    const std::string folder = render(look + Arguments{"--single", "--path", camera, "--size", "320x240"});
+    EXPECT_TRUE(still.file == contents(std::filesystem::path(folder) / "frame_0000.png"));
+    const Json objects = viewer.note("objects");
+    EXPECT_EQ(objects["end_boxes"].size(), objects["boxes"].size());
+    EXPECT_THAT(viewer.note("state")["command"].get<std::string>(),
+                HasSubstr("--background 101218 --pose 0.4 --light=-1,2,0.5 --path view.camera"));
+    expect_end(*client);
+}
+
 TEST_F(Live, StillPicturesEqualThoseOfOneProcessForEveryCameraAndSize) {
     const auto client = start_client({"--local", "2", "--view-max-size", "600x400"});
     LiveViewer viewer(page(*client));

@@ -34,6 +34,7 @@ TEST(Notes, OfAPlanHaveWhatTheOverlaysDraw) {
     plan.view.width = 8;
     plan.view.height = 4;
     plan.view.clip_from_model[3][0] = 7;
+    plan.view.pose = 0.1f;
     plan.servers = {{{0, 2, 9}, {{0, 0, 4, 4}}, {0, 0, 6, 4}}, {{}, {{4, 0, 8, 4}}, {}}};
     const Json note = Json::parse(plan_note(order, plan, 1.25, 2));
     EXPECT_EQ(note["wish"], 12);
@@ -44,6 +45,7 @@ TEST(Notes, OfAPlanHaveWhatTheOverlaysDraw) {
     EXPECT_EQ(note["generation"], 2);
     EXPECT_EQ(note["overlap"], 1.25);
     EXPECT_EQ(note["clip"][12], 7);
+    EXPECT_EQ(note["pose"].dump(), "0.1");
     EXPECT_EQ(note["tiles"].dump(), "[[0,0,4,4],[4,0,8,4]]");
     EXPECT_EQ(note["contents"].dump(), "[[0,0,6,4],[]]");
     EXPECT_EQ(note["groups"].dump(), "[[0,2,7],[]]");
@@ -115,6 +117,13 @@ TEST(Notes, OfObjectsHaveTheirBoxes) {
     EXPECT_EQ(note["count"], scene.objects.size());
     ASSERT_EQ(note["boxes"].size(), 6 * scene.objects.size());
     EXPECT_EQ(note["boxes"][3].get<float>(), scene.objects[0].box.max.x);
+    EXPECT_TRUE(note["end_boxes"].is_null());
+    Mesh mesh = test::cube();
+    mesh.motion.assign(mesh.vertices.size(), glm::vec3(5, 0, 0));
+    const ObjectSet moving = build_objects(mesh, {2, 0});
+    const Json ends = Json::parse(objects_note(4, moving))["end_boxes"];
+    ASSERT_EQ(ends.size(), 6 * moving.objects.size());
+    EXPECT_EQ(ends[3].get<float>(), moving.objects[0].box.max.x + 5);
 }
 
 TEST(Notes, OfAFrameHaveEverySpanAndWhatWasCounted) {

@@ -21,6 +21,21 @@ TEST(Projection, OfAVisibleObjectIsItsScreenBoundsAndItsTriangles) {
     EXPECT_EQ(project_one(object), (ProjectedObject{screen_bounds(object.box, front_view()), 33, true}));
 }
 
+TEST(Projection, OfAnObjectThatMovesIsWhereItIsAtTheViewsPose) {
+    Object object = cube({-30, 0, 0}, 0.1f, 33);
+    object.end_box = cube({30, 0.2f, 0}, 0.1f, 33).box;
+    View view = front_view();
+    const auto at = [&](float pose) {
+        view.pose = pose;
+        return project(std::vector{object}, view).front();
+    };
+    EXPECT_EQ(at(0), project_one(object));
+    EXPECT_FALSE(at(0).visible);
+    EXPECT_EQ(at(0.5f), (ProjectedObject{screen_bounds(object.box_at(0.5f), view), 33, true}));
+    EXPECT_EQ(at(1).box.x1, 640);
+    EXPECT_FALSE(at(1).visible);
+}
+
 TEST(Projection, OfAnUnseenObjectIsThePixelOfTheBorderNearestToIt) {
     EXPECT_EQ(project_one(cube({-30, 0, 0}, 0.1f, 33)), (ProjectedObject{{0, 240, 1, 241}, 0, false}));
     EXPECT_EQ(project_one(cube({30, 0, 0}, 0.1f, 33)).box, (Rect{639, 240, 640, 241}));

@@ -191,5 +191,16 @@ TEST(DepthRange, LookingAwayIsStillARange) {
     EXPECT_GT(fitted.far, fitted.near);
 }
 
+TEST(PathPose, GoesToAndFroInSteps) {
+    EXPECT_EQ(path_pose(0), 0);
+    EXPECT_EQ(path_pose(3), 0.1f);
+    EXPECT_EQ(path_pose(15), 0.5f);
+    EXPECT_EQ(path_pose(30), 1);
+    EXPECT_EQ(path_pose(45), 0.5f);
+    EXPECT_EQ(path_pose(57), 0.1f);
+    EXPECT_EQ(path_pose(60), 0);
+    EXPECT_EQ(path_pose(6'000'003), 0.1f);
+}
+
 }  // namespace
 }  // namespace swath

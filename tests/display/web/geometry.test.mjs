@@ -70,6 +70,15 @@ test('group ids add up', () => {
     assert.deepEqual(geometry.group_ids([]), []);
 });
 
+test('boxes are between their ends', () => {
+    const boxes = [0, 0, 0, 1, 1, 1, 5, 5, 5, 6, 6, 6];
+    const end_boxes = [10, 0, 0, 11, 1, 1, 5, 5, 5, 6, 6, 6];
+    assert.deepEqual(geometry.boxes_at(boxes, end_boxes, 0.5), [5, 0, 0, 6, 1, 1, 5, 5, 5, 6, 6, 6]);
+    assert.equal(geometry.boxes_at(boxes, end_boxes, 0), boxes);
+    assert.equal(geometry.boxes_at(boxes, null, 0.5), boxes);
+    assert.equal(geometry.boxes_at(boxes, end_boxes, undefined), boxes);
+});
+
 test('areas add up over rectangles', () => {
     assert.equal(geometry.area([0, 0, 10, 5, 10, 0, 12, 1]), 52);
     assert.equal(geometry.area([]), 0);
