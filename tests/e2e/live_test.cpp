@@ -75,6 +75,33 @@ TEST_F(Live, StillPicturesHaveTheRunsPoseAndLightWhichAreInTheCommandToo) {
     expect_end(*client);
 }
 
+TEST_F(Live, GoFromServersOfBothKindsToOneAndSayHowToDrawThatAgain) {
+    const auto client = start_client({"--local", "2", "--renderer", "raycast,osmesa", "--shadows",
+                                      "--objects-by", "sah", "--objects", "200", "--size", "64x48"});
+    LiveViewer viewer(page(*client));
+    viewer.still(viewer.wish({{"camera", home_["camera"]}, {"width", 64}, {"height", 48}}));
+    EXPECT_EQ(viewer.note("state")["renderer"], "raycast,osmesa");
+    for (const auto& [renderer, flags] :
+         {std::pair("raycast", Arguments{"--shadows"}), std::pair("osmesa", Arguments{})})
+        for (const int objects : {200, 60}) {
+            const auto still = viewer.still(viewer.wish({{"renderer", renderer}, {"objects", objects}}));
+            const Json state = viewer.note("state", [&](const Json& note) {
+                return note["renderer"] == renderer && note["objects"] == objects && note["busy"].is_null();
+            });
+            const std::string command = state["command"];
+            EXPECT_THAT(command, HasSubstr(fmt::format("--renderer {} ",
+                                                       fmt::join(Arguments{renderer} + flags, " "))));
+            EXPECT_THAT(command, HasSubstr(fmt::format("--objects-by sah --objects {} ", objects)));
+            const std::string camera = files_.write("view.camera", viewer.camera_line());
+            const Arguments single{kModel,         "--single", "--path",     camera,
+                                   "--size",       "64x48",    "--renderer", renderer,
+                                   "--objects-by", "sah",      "--objects",  std::to_string(objects)};
+            const std::filesystem::path folder = render(single + flags);
+            EXPECT_TRUE(still.file == contents(folder / "frame_0000.png")) << renderer << ' ' << objects;
+        }
+    expect_end(*client);
+}
+
 TEST_F(Live, StillPicturesEqualThoseOfOneProcessForEveryCameraAndSize) {
     const auto client = start_client({"--local", "2", "--view-max-size", "600x400"});
     LiveViewer viewer(page(*client));
