@@ -115,7 +115,7 @@ struct MakeReferences {
             r.low[0] = r.high[0] = -kHuge;
         }
         r.triangle = triangle;
-        r.unused = 0;
+        r.children = 0;
         references[triangle] = r;
     }
 };
@@ -226,14 +226,15 @@ struct CountChildren {
         const Chunk c = chunks[chunk];
         float positions[3];
         positions_of(cuts[c.open], positions);
-        std::uint32_t of[8] = {};
+        ChildCounts counted;
         for (std::uint32_t i = c.first; i < c.first + c.count; ++i) {
-            std::uint32_t to = children_of(references[i], positions);
+            const std::uint32_t to = children_of(references[i], positions);
             children[i] = static_cast<unsigned char>(to);
-            for (; to != 0; to &= to - 1) ++of[lowest_bit(to)];
+            counted.add(to);
         }
+        counted.empty();
         for (std::uint32_t child = 0; child < 8; ++child)
-            counts[count_at(opens[c.open], child, chunk)] = of[child];
+            counts[count_at(opens[c.open], child, chunk)] = counted.of[child];
     }
 };
 

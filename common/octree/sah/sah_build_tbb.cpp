@@ -19,7 +19,7 @@ namespace {
 class TbbBuild final : public SahBuild {
   public:
     explicit TbbBuild(std::size_t threads)
-        : arena_(static_cast<int>(threads)), build_(static_cast<std::uint32_t>(8 * threads)) {}
+        : arena_(static_cast<int>(threads)), build_(static_cast<std::uint32_t>(4 * threads)) {}
     SahOutcome build(const SahTriangles& triangles, const SahSettings& settings) override {
         return arena_.execute([&] { return build_.build(triangles, settings); });
     }

@@ -11,6 +11,8 @@
 namespace swath {
 namespace {
 
+constexpr std::uint32_t kMinGrain = 2048;
+
 Status check(const SahTriangles& triangles, const SahSettings& settings) {
     if (triangles.count() == 0) return fail("there are no triangles");
     if (triangles.position_count == 0 || triangles.position_count > 0xffff'ffff ||
@@ -19,9 +21,10 @@ Status check(const SahTriangles& triangles, const SahSettings& settings) {
     if (settings.min_bins < 2 || settings.max_bins < settings.min_bins || settings.max_bins > kMaxBins)
         return fail("{} to {} bins: the limits are 2 and {}", settings.min_bins, settings.max_bins, kMaxBins);
     if (settings.bin_ratio < 1) return fail("a bin ratio of 0");
-    if (settings.grain < 1 || settings.grain > kMaxGrain || settings.kd_triangles > settings.grain)
-        return fail("kd-trees of {} triangles and a grain of {}: the limits are {} and {}",
-                    settings.kd_triangles, settings.grain, settings.grain, kMaxGrain);
+    if (settings.grain > kMaxGrain ||
+        settings.kd_triangles > (settings.grain > 0 ? settings.grain : kMinGrain))
+        return fail("kd-trees of {} triangles and a grain of {}: the limits are the grain (or {}) and {}",
+                    settings.kd_triangles, settings.grain, kMinGrain, kMaxGrain);
     if (!(settings.traversal_cost >= 0.0f && settings.traversal_cost <= 1e6f) ||
         !(settings.intersection_cost >= 1e-6f && settings.intersection_cost <= 1e6f))
         return fail("costs of {} and {}: the limits are 0 (1e-6 for the second) and 1e6",
@@ -61,6 +64,9 @@ Result<SahTree> SahBuilder::build(const SahTriangles& triangles, const SahSettin
     if (const auto status = check(triangles, settings); !status) return tl::unexpected(status.error());
     SahSettings limited = settings;
     limited.max_bytes = std::min(limited.max_bytes, machine_bytes());
+    if (limited.grain == 0)
+        limited.grain =
+            static_cast<std::uint32_t>(std::clamp<std::size_t>(triangles.count() / 64, kMinGrain, kMaxGrain));
     try {
         SahOutcome outcome = build_->build(triangles, limited);
         if (!outcome.error.empty()) return fail("{}", outcome.error);

@@ -24,7 +24,7 @@ struct SahReference {
     float low[3];
     std::uint32_t triangle;
     float high[3];
-    std::uint32_t unused;
+    std::uint32_t children;  // scratch of the thread that cuts the node: those it goes to, a bit each
 };
 static_assert(sizeof(SahReference) == 32);
 
@@ -134,13 +134,75 @@ struct BinScale {
 };
 #endif
 
+// Of few bins: a box is compared with all samples between them, which takes less than finding its bins and
+// counting there.
+inline constexpr std::uint32_t kFewBins = 8;
+#if defined(__SSE2__) && !defined(__CUDACC__)
+// `sides` is the first reference's; the others' follow, a reference apart.
+template <int kSamples>
+void count_below(const float* sides, std::uint32_t count, const float (*samples)[4],
+                 std::uint32_t (*below)[4]) {
+    __m128 at[kSamples];
+    __m128i sum[kSamples];
+    for (int i = 0; i < kSamples; ++i) {
+        at[i] = _mm_setr_ps(samples[i][0], samples[i][1], samples[i][2], 0.0f);
+        sum[i] = _mm_setzero_si128();
+    }
+    for (std::uint32_t r = 0; r < count; ++r, sides += sizeof(SahReference) / sizeof(float)) {
+        const __m128 side = _mm_loadu_ps(sides);
+        for (int i = 0; i < kSamples; ++i)
+            sum[i] = _mm_sub_epi32(sum[i], _mm_castps_si128(_mm_cmplt_ps(side, at[i])));
+    }
+    for (int i = 0; i < kSamples; ++i) _mm_storeu_si128(reinterpret_cast<__m128i*>(below[i]), sum[i]);
+}
+#endif
+SWATH_BOTH void compare_with_samples(const SahReference* references, std::uint32_t count, const SahBox& box,
+                                     const SahBins& bins) {
+    constexpr int kSamples = kFewBins - 1;
+    float samples[kSamples][4];
+    for (int axis = 0; axis < 3; ++axis) {
+        const float width = (box.high[axis] - box.low[axis]) / static_cast<float>(bins.count);
+        for (int i = 0; i < kSamples; ++i)
+            samples[i][axis] = box.low[axis] + static_cast<float>(i + 1) * width;
+    }
+    // How many start, and how many end, below each sample.
+    std::uint32_t starts[kSamples][4] = {};
+    std::uint32_t ends[kSamples][4] = {};
+#if defined(__SSE2__) && !defined(__CUDACC__)
+    if (bins.count <= kFewBins / 2) {
+        count_below<kFewBins / 2 - 1>(references->low, count, samples, starts);
+        count_below<kFewBins / 2 - 1>(references->high, count, samples, ends);
+    } else {
+        count_below<kSamples>(references->low, count, samples, starts);
+        count_below<kSamples>(references->high, count, samples, ends);
+    }
+#else
+    for (std::uint32_t r = 0; r < count; ++r)
+        for (int i = 0; i < kSamples; ++i)
+            for (int axis = 0; axis < 3; ++axis) {
+                starts[i][axis] += references[r].low[axis] < samples[i][axis] ? 1u : 0u;
+                ends[i][axis] += references[r].high[axis] < samples[i][axis] ? 1u : 0u;
+            }
+#endif
+    for (int axis = 0; axis < 3; ++axis) {
+        std::uint32_t before[2] = {0, 0};
+        for (std::uint32_t i = 0; i + 1 < bins.count; ++i) {
+            bins.starts[axis][i] = starts[i][axis] - before[0];
+            bins.ends[axis][i] = ends[i][axis] - before[1];
+            before[0] = starts[i][axis];
+            before[1] = ends[i][axis];
+        }
+        bins.starts[axis][bins.count - 1] = count - before[0];
+        bins.ends[axis][bins.count - 1] = count - before[1];
+    }
+}
+
 // Algorithm 1's BIN: one pass over the boxes for all three axes.
 SWATH_BOTH void count_bins(const SahReference* references, std::uint32_t count, const SahBox& box,
                            const SahBins& bins) {
+    if (bins.count <= kFewBins) return compare_with_samples(references, count, box, bins);
     float scale[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        scale[axis] = bin_scale(box, axis, bins.count);
-    }
+    for (int axis = 0; axis < 3; ++axis) scale[axis] = bin_scale(box, axis, bins.count);
     // All six stand together.
     for (std::uint32_t i = 0; i < kBinWords * (bins.count + 1); ++i) bins.starts[0][i] = 0;
     const BinScale bins_of(box.low, scale);
@@ -408,12 +470,41 @@ SWATH_BOTH void keep_best(SahCut& cut) {
         if (axis != best || planes == 1) cut.planes[axis].any = false;
 }
 
+#if defined(__SSE2__) && !defined(__CUDACC__)
+// For the axes along which a reference goes below (bits 0 to 2) and above (3 to 5).
+struct ChildrenTable {
+    std::uint8_t of[64];
+    constexpr ChildrenTable() : of{} {
+        for (int sides = 0; sides < 64; ++sides)
+            for (int child = 0; child < 8; ++child) {
+                bool goes = true;
+                for (int axis = 0; axis < 3; ++axis) {
+                    const int bit = (child >> axis & 1) != 0 ? 3 + axis : axis;
+                    goes = goes && (sides >> bit & 1) != 0;
+                }
+                if (goes) of[sides] = static_cast<std::uint8_t>(of[sides] | 1 << child);
+            }
+    }
+};
+inline constexpr ChildrenTable kChildren;
+#endif
+
 // The children, of eight, that a reference goes to: along an axis that is not cut all are below.
 SWATH_BOTH std::uint32_t children_of(const SahReference& r, const float* positions) {
+#if defined(__SSE2__) && !defined(__CUDACC__)
+    const __m128 plane = _mm_setr_ps(positions[0], positions[1], positions[2], 0.0f);
+    const __m128 low = _mm_loadu_ps(r.low);
+    const __m128 high = _mm_loadu_ps(r.high);
+    const auto below = static_cast<std::uint32_t>(
+        _mm_movemask_ps(_mm_or_ps(_mm_cmplt_ps(low, plane), _mm_cmple_ps(high, plane))));
+    const auto above = static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpgt_ps(high, plane)));
+    return kChildren.of[(below & 7) | (above & 7) << 3];
+#else
     constexpr std::uint32_t kOf[3][4] = {{0, 0x55, 0xaa, 0xff}, {0, 0x33, 0xcc, 0xff}, {0, 0x0f, 0xf0, 0xff}};
     return kOf[0][sides(r.low[0], r.high[0], positions[0])] &
            kOf[1][sides(r.low[1], r.high[1], positions[1])] &
            kOf[2][sides(r.low[2], r.high[2], positions[2])];
+#endif
 }
 // The part of a reference that lies in child `child`.
 SWATH_BOTH void clip_to_child(SahReference& r, std::uint32_t child, const float* positions) {
@@ -438,6 +529,27 @@ SWATH_BOTH std::uint32_t lowest_bit(std::uint32_t bits) {
     return static_cast<std::uint32_t>(__builtin_ctz(bits));
 #endif
 }
+
+// Counts references by their children: eight counters of a byte each, emptied before one is full.
+struct ChildCounts {
+    std::uint32_t of[8] = {};
+    SWATH_BOTH void add(std::uint32_t children) {
+        // Bit i to the lowest bit of byte i.
+        bytes_ += ((children & 0x7f) * 0x0002040810204081ull & 0x0001010101010101ull) |
+                  static_cast<std::uint64_t>(children >> 7) << 56;
+        if (++pending_ == 255) empty();
+    }
+    SWATH_BOTH void empty() {
+        for (int child = 0; child < 8; ++child)
+            of[child] += static_cast<std::uint32_t>(bytes_ >> 8 * child & 0xff);
+        bytes_ = 0;
+        pending_ = 0;
+    }
+
+  private:
+    std::uint64_t bytes_ = 0;
+    std::uint32_t pending_ = 0;
+};
 
 // How many triangles the leaves of a child may have, if its parent's may have `allowed` and all children
 // together need at least `needed` of them.

@@ -14,9 +14,10 @@ struct SahSettings {
     std::uint32_t bin_ratio = 6;   // at least 1
     // Nodes of at most so many triangles become kd-trees (0: never).
     std::uint32_t kd_triangles = 256;
-    // Nodes of at most so many triangles are finished by one thread; more are shared out. At least
-    // kd_triangles.
-    std::uint32_t grain = 2048;  // at most kMaxGrain
+    // Nodes of at most so many triangles are finished by one thread, larger ones are shared out; at least
+    // kd_triangles. 0 is for as many as fit: a 64th of all, 2,048 to kMaxGrain. Trees of different grains
+    // differ in the order of nodes only.
+    std::uint32_t grain = 0;
     // An octree node is cut along an axis only where that gains at least so much of what the best axis gains:
     // 0 for always, 1 for the best one only. (The paper has always: in scenes of flat, unlike parts that
     // costs a quarter of a tree's worth.)
@@ -34,7 +35,7 @@ struct SahSettings {
     bool operator==(const SahSettings&) const = default;
 };
 inline constexpr std::uint32_t kMaxBins = 256;
-inline constexpr std::uint32_t kMaxGrain = 1u << 16;
+inline constexpr std::uint32_t kMaxGrain = 1u << 14;
 inline constexpr float kMaxSahCoordinate = 1e18f;  // its square times a number of triangles is still a float
 
 // The paper's two settings. The fast one also makes larger leaves.
@@ -42,8 +43,10 @@ inline constexpr SahSettings kDefaultSah{};
 inline constexpr SahSettings kFastSah{.min_bins = 4,
                                       .max_bins = 32,
                                       .bin_ratio = 16,
+                                      .kd_triangles = 32,
+                                      .least_gain = 0.0f,
                                       .refine = false,
-                                      .traversal_cost = 16.0f,
+                                      .traversal_cost = 20.0f,
                                       .max_duplication = 2};
 
 }  // namespace swath

@@ -113,14 +113,17 @@ SWATH_BOTH std::uint32_t cut_in_two(const SahPending& at, int axis, const SahPla
 // Cuts along all axes that are worth it: the children's lists go on top.
 SWATH_BOTH std::uint32_t cut_in_eight(const SahPending& at, const SahCut& cut, SahScratch& scratch,
                                       SahSubtreeOutput& out, SahPending* children) {
-    const SahReference* references = scratch.references + at.first;
+    SahReference* const references = scratch.references + at.first;
     const std::uint32_t axes = axes_of(cut);
     float positions[3];
     positions_of(cut, positions);
-    std::uint32_t counts[8] = {};
-    for (std::uint32_t i = 0; i < at.count; ++i)
-        for (std::uint32_t to = children_of(references[i], positions); to != 0; to &= to - 1)
-            ++counts[lowest_bit(to)];
+    ChildCounts counted;
+    for (std::uint32_t i = 0; i < at.count; ++i) {
+        references[i].children = children_of(references[i], positions);
+        counted.add(references[i].children);
+    }
+    counted.empty();
+    const std::uint32_t* const counts = counted.of;
     std::uint32_t needed = 0;
     std::uint32_t begins[8];
     std::uint32_t end = at.first + at.count;
@@ -146,7 +149,7 @@ SWATH_BOTH std::uint32_t cut_in_eight(const SahPending& at, const SahCut& cut, S
     }
     for (std::uint32_t i = 0; i < at.count; ++i) {
         const SahReference& r = references[i];
-        std::uint32_t to = children_of(r, positions);
+        std::uint32_t to = r.children;
         if ((to & (to - 1)) == 0) {
             scratch.references[begins[lowest_bit(to)]++] = r;
             continue;
