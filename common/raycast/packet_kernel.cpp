@@ -98,7 +98,7 @@ struct Walk {
         kz = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
         kx = (kz + 1) % 3;
         ky = (kz + 2) % 3;
-        shear_z = divide(all(1.0f), direction[kz]);
+        shear_z = inverse[kz];
         shear_x = multiply(direction[kx], shear_z);
         shear_y = multiply(direction[ky], shear_z);
         for (std::uint32_t i = 0; i < kTested; i += 16) store(tested + i, all(kNoTriangle));
