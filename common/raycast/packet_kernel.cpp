@@ -43,6 +43,7 @@ struct Walk {
 
     Floats origin[3];
     Floats origins;  // of one ray: x y z x y z x y z
+    Floats direction[3];
     Floats inverse[3];
     // How far beyond a plane, in t, a ray goes on in the child before it: what rounding may move a hit.
     Floats slack[3];
@@ -74,7 +75,6 @@ struct Walk {
          PacketWork* counts)
         : tree(of), active(lanes), work(counts) {
         Floats reach = all(0.0f);
-        Floats direction[3];
         for (int axis = 0; axis < 3; ++axis) {
             origin[axis] = load(rays.origin[axis]);
             direction[axis] = load(rays.direction[axis]);
@@ -166,12 +166,36 @@ struct Walk {
         hit &= ~equal(sum, zero);
         if (hit == 0) return;
         const Floats along = multiply(shear_z, add(add(multiply(u, az), multiply(v, bz)), multiply(w, cz)));
+        // What is seen edge-on, or has no area, makes u, v and w that mean nothing: their signs would let
+        // rays hit it beside it. So a hit is in the triangle's box, or next to it by rounding. The walk
+        // relies on that.
+        const Floats off =
+            multiply(higher_of(higher_of(absolute(az), absolute(bz)), absolute(cz)), all(0x1p-21f));
+        const auto least_of = [&](int axis) {
+            const float a = corner[axis];
+            const float b = corner[3 + axis];
+            const float c = corner[6 + axis];
+            const float least = b < a ? b : a;
+            return subtract(subtract(all(c < least ? c : least), origin[axis]), off);
+        };
+        const auto most_of = [&](int axis) {
+            const float a = corner[axis];
+            const float b = corner[3 + axis];
+            const float c = corner[6 + axis];
+            const float most = b > a ? b : a;
+            return add(subtract(all(c > most ? c : most), origin[axis]), off);
+        };
         if constexpr (kWant == Want::kNearestByDepth) {
             // Depth from 1 / t, which it does not rise with: no division more.
             const Floats inverse_t = divide(sum, along);
             const Floats depth = subtract(depth_offset, multiply(depth_scale, inverse_t));
             hit &= at_most(least_inverse, inverse_t) & at_least_zero(depth) & less(depth, all(1.0f));
+            const auto in_box = [&](int axis) {
+                return at_most(multiply(least_of(axis), inverse_t), direction[axis]) &
+                       at_most(direction[axis], multiply(most_of(axis), inverse_t));
+            };
             hit &= less(depth, best) | (equal(depth, best) & less(all(number), triangle));
+            hit &= in_box(kx) & in_box(ky);
             if (hit == 0) return;
             keep(hit, number, depth, u, v, w);
             // Many t have one depth. Where this is depth, a greater one is for sure.
@@ -183,6 +207,11 @@ struct Walk {
         } else {
             const Floats t = divide(along, sum);
             hit &= less(all(0.0f), t) & at_most(t, limit);
+            const auto in_box = [&](int axis) {
+                const Floats at = multiply(t, direction[axis]);
+                return at_most(least_of(axis), at) & at_most(at, most_of(axis));
+            };
+            hit &= in_box(kx) & in_box(ky);
             if constexpr (kWant == Want::kAny) {
                 const Words number_of = all(number);
                 hit &= less(number_of, but) | less(but, number_of);

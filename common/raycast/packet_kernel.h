@@ -51,8 +51,9 @@ struct PacketWork {
 };
 
 // A ray hits a triangle where Woop, Benthin and Wald's test (2013) says so in single precision, from both
-// sides and on edges, at t > 0: a function of ray and triangle alone. What a kernel finds is the best of all
-// triangles by that function, whatever tree, packet or instruction set.
+// sides and on edges, at t > 0, and there is in the triangle's box or next to it by rounding: a function of
+// ray and triangle alone. What a kernel finds is the best of all triangles by that function, whatever tree,
+// packet or instruction set.
 struct PacketKernels {
     // The smallest t, of equals the smallest triangle.
     void (*nearest)(const KernelTree& tree, const RayPacket& rays, PacketHits& hits);

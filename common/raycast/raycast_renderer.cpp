@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "common/base/check.h"
 #include "common/raycast/cast_scene.h"
@@ -83,14 +84,20 @@ class RaycastRenderer final : public Renderer {
 
   private:
     Status prepare(std::span<const DrawRun> runs, float pose) {
-        const bool moved = pose != pose_;
+        for (const DrawRun& run : runs) {
+            CHECK(run.object < scene_.objects.size());
+            const Object& object = scene_.objects[run.object];
+            CHECK(run.first_triangle >= object.first_triangle);
+            CHECK(run.first_triangle + run.triangle_count <= object.first_triangle + object.triangle_count);
+        }
         cast_.pose(pose);
-        pose_ = pose;
         if (setup_.dynamic && !setup_.shadows) return cast_.build(runs, kFastSah);
         // Shadows are cast by what is not drawn, too.
-        if (setup_.dynamic || moved) {
+        if (setup_.dynamic || tree_pose_ != pose) {
+            tree_pose_.reset();
             if (const auto status = cast_.build_all(setup_.dynamic ? kFastSah : kDefaultSah); !status)
                 return status;
+            tree_pose_ = pose;
         }
         cast_.want(runs);
         return {};
@@ -179,9 +186,9 @@ class RaycastRenderer final : public Renderer {
     const PacketKernels& kernels_;
     tbb::task_arena arena_;
     CastScene cast_;
-    float pose_ = 0;                 // of the last draw
-    std::vector<ObjectId> objects_;  // of each triangle
-    PixelFrame pixels_;              // of the last draw
+    std::optional<float> tree_pose_ = 0.0f;  // of a tree over all; none where it could not be built
+    std::vector<ObjectId> objects_;          // of each triangle
+    PixelFrame pixels_;                      // of the last draw
 };
 
 }  // namespace

@@ -342,6 +342,16 @@ class ThrustBuild {
     explicit ThrustBuild(std::uint32_t max_workers) : max_workers_(max_workers) {}
 
     SahOutcome build(const SahTriangles& input, const SahSettings& settings) {
+        const bool used_before = bytes_ > 0;
+        SahOutcome outcome = build_with_what_is_there(input, settings);
+        // What an earlier build took is no reason to refuse this one.
+        if (bytes_ == 0 && used_before && !outcome.error.empty())
+            outcome = build_with_what_is_there(input, settings);
+        return outcome;
+    }
+
+  private:
+    SahOutcome build_with_what_is_there(const SahTriangles& input, const SahSettings& settings) {
         settings_ = settings;
         opens_.clear();
         subtrees_.clear();
@@ -376,7 +386,6 @@ class ThrustBuild {
         }
     }
 
-  private:
     struct TooLarge {
         std::size_t bytes;
         const char* what;
