@@ -22,6 +22,7 @@ if(SWATH_TESTS)
   find_package(GTest REQUIRED)
   # Benchmarks only.
   pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)
+  find_package(embree 3 REQUIRED)
 endif()
 
 # tl::expected is one header.

@@ -3,7 +3,7 @@
 
 #include "common/cull/published/published_walk.h"
 #include "tests/bench/culling_bench.h"
-#include "tests/bench/culling_plots.h"
+#include "tests/bench/plots.h"
 
 namespace swath::bench {
 namespace {

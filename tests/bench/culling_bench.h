@@ -3,9 +3,9 @@
 
 #include "common/base/clock.h"
 #include "common/base/thread_team.h"
-#include "tests/bench/culling_race.h"
 #include "tests/bench/culling_scenes.h"
 #include "tests/bench/figures.h"
+#include "tests/bench/race.h"
 
 // The parts of bench_culling(). Errors: ways to cull that do not agree, or a plot that cannot be drawn.
 namespace swath::bench {

@@ -4,7 +4,7 @@
 #include "common/resource/resource_array.h"
 #include "common/resource/resource_sorter.h"
 #include "tests/bench/culling_bench.h"
-#include "tests/bench/culling_plots.h"
+#include "tests/bench/plots.h"
 
 namespace swath::bench {
 namespace {

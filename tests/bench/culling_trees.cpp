@@ -1,7 +1,7 @@
 #include "common/cull/wide/wide_octree.h"
 #include "tests/bench/culling_bench.h"
-#include "tests/bench/culling_plots.h"
 #include "tests/bench/culling_walks.h"
+#include "tests/bench/plots.h"
 
 namespace swath::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/cull/published/published_walk.h"
-#include "tests/bench/culling_race.h"
+#include "tests/bench/race.h"
 
 namespace swath::bench {
 

@@ -61,7 +61,8 @@ Finished run_program(const std::vector<std::string>& command);
 std::string client_program();  // swath-client beside this program
 
 // One benchmark a function; errors are what is missing (a model, a program).
-Status bench_culling(Figures& figures, const Effort& effort);  // the one that draws plots
+Status bench_culling(Figures& figures, const Effort& effort);  // draws plots
+Status bench_octree(Figures& figures, const Effort& effort);   // draws plots
 Status bench_cluster(Figures& figures, const Effort& effort);
 Status bench_compose(Figures& figures, const Effort& effort);
 Status bench_culling_render(Figures& figures, const Effort& effort);

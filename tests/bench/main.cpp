@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
                                                       {"culling", {bench::bench_culling, false, true}},
                                                       {"culling-render", {bench::bench_culling_render}},
                                                       {"load", {bench::bench_load}},
+                                                      {"octree", {bench::bench_octree, false, true}},
                                                       {"peers", {bench::bench_peers}},
                                                       {"simulator", {bench::bench_simulator}},
                                                       {"swap", {bench::bench_swap}},
@@ -37,16 +38,18 @@ int main(int argc, char** argv) {
         "  culling    culling and sorting: ours beside both papers' and Bullet's\n"
         "  culling-render  what culling by leaf saves: triangles and time, from inside and sort-first\n"
         "  load       reading the Dragon and cutting it into objects\n"
+        "  octree     SAH octrees and rays: ours beside the serial kd-tree and Embree\n"
         "  peers      ours beside IceT's and OpenSceneGraph's on the Dragon\n"
         "  simulator  all of the paper's Table 1, events and partitions a second\n"
         "  swap       bytes a swapped pixel takes, and how fast pixels are merged\n"
         "  viewer     what somebody who looks costs, and what they get: pictures a second, lag\n"};
     app.add_option("NAME", name, "which")
         ->required()
-        ->check(CLI::IsMember({"cluster", "compose", "culling", "culling-render", "load", "peers",
+        ->check(CLI::IsMember({"cluster", "compose", "culling", "culling-render", "load", "octree", "peers",
                                "simulator", "swap", "viewer"}));
     app.add_option("--json", json, "write {\"figures\": {name: number}} to this file");
-    app.add_option("--out", out, "culling: also draw plots, into this folder, with their numbers as CSV");
+    app.add_option("--out", out,
+                   "culling, octree: also draw plots, into this folder, with their numbers as CSV");
     app.add_flag("--smoke", smoke,
                  "a small built-in model, once: to see that it runs; the figures mean nothing");
     if (const auto code = parse_options(app, argc, argv)) return *code;

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/bench/culling_race.h"
+#include "tests/bench/race.h"
 
 namespace swath::bench {
 namespace {
@@ -41,6 +41,17 @@ TEST(Race, MeasuresEachInTurn) {
     race.run(2, 2);
     EXPECT_THAT(turns, testing::ElementsAre(1, 1, 2, 2, 1, 1, 2, 2));
     EXPECT_EQ(race.ratios("1", "2").size(), 2u);
+}
+
+TEST(Race, PreparesWorkBeforeEveryFrame) {
+    std::string steps;
+    Race race("a race", "scene");
+    race.add_work(
+        "work", [&] { steps += 'p'; }, [&] { steps += 'f'; });
+    EXPECT_TRUE(race.check());
+    EXPECT_EQ(steps, "");
+    race.run(2, 2);
+    EXPECT_EQ(steps, "pfpfpfpf");
 }
 
 }  // namespace

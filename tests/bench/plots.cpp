@@ -1,4 +1,4 @@
-#include "tests/bench/culling_plots.h"
+#include "tests/bench/plots.h"
 
 #include <map>
 
@@ -26,6 +26,20 @@ Status draw_with_csv(const sim::Plot& plot, const std::filesystem::path& stem) {
     }
     if (const auto status = write_file(stem.string() + ".csv", csv); !status) return status;
     return sim::draw(plot, stem);
+}
+
+Status draw_with_csv(const sim::Bars& bars, const std::filesystem::path& stem) {
+    std::string csv = csv_field(bars.y_label);
+    for (const std::string& segment : bars.segments) csv += ',' + csv_field(segment);
+    csv += '\n';
+    for (const sim::Bars::Group& group : bars.groups) {
+        csv += csv_field(group.name);
+        for (std::size_t i = 0; i < bars.segments.size(); ++i)
+            csv += fmt::format(",{:.6g}", group.bars.at(i).values.at(i));
+        csv += '\n';
+    }
+    if (const auto status = write_file(stem.string() + ".csv", csv); !status) return status;
+    return sim::draw(bars, stem);
 }
 
 std::string short_number(std::uint64_t number) {

@@ -10,9 +10,9 @@
 
 namespace swath::bench {
 
-// Ways to the same set, measured against each other: in every repetition each has a turn of a few frames back
-// to back, and its best one counts, so that what disturbs the machine disturbs all alike. Ratios are taken
-// within a repetition.
+// Ways to the same set, or to do the same work, measured against each other: in every repetition each has a
+// turn of a few frames back to back, and its best one counts, so that what disturbs the machine disturbs all
+// alike. Ratios are taken within a repetition.
 class Race {
   public:
     using Ids = std::vector<std::uint32_t>;
@@ -25,6 +25,9 @@ class Race {
     void add(std::string name, std::function<void()> frame, std::function<Ids()> ids);
     // Of a frame that returns all its ids.
     void add(std::string name, std::function<std::span<const std::uint32_t>()> frame);
+    // Of work that makes no set, and that check() leaves out. `prepare` comes before every frame and is not
+    // measured.
+    void add_work(std::string name, std::function<void()> prepare, std::function<void()> frame);
 
     enum class Order { kAny, kSame };
     // One frame of each, not measured: an error when one does not leave what the first left, naming both and
@@ -44,7 +47,8 @@ class Race {
     struct Runner {
         std::string name;
         std::function<void()> frame;
-        std::function<Ids()> ids;
+        std::function<Ids()> ids;       // none of work without a set
+        std::function<void()> prepare;  // may be none
         std::vector<double> us;
     };
     const Runner& runner(std::string_view name) const;

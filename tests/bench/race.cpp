@@ -1,4 +1,4 @@
-#include "tests/bench/culling_race.h"
+#include "tests/bench/race.h"
 
 #include <algorithm>
 #include <chrono>
@@ -18,7 +18,11 @@ double time_us(const std::function<void()>& work) {
 }
 
 void Race::add(std::string name, std::function<void()> frame, std::function<Ids()> ids) {
-    runners_.push_back({std::move(name), std::move(frame), std::move(ids), {}});
+    runners_.push_back({std::move(name), std::move(frame), std::move(ids), {}, {}});
+}
+
+void Race::add_work(std::string name, std::function<void()> prepare, std::function<void()> frame) {
+    runners_.push_back({std::move(name), std::move(frame), {}, std::move(prepare), {}});
 }
 
 void Race::add(std::string name, std::function<std::span<const std::uint32_t>()> frame) {
@@ -31,6 +35,7 @@ void Race::add(std::string name, std::function<std::span<const std::uint32_t>()>
 Status Race::check(Order order) {
     Ids expected;
     for (const Runner& runner : runners_) {
+        if (!runner.ids) continue;
         runner.frame();
         Ids found = runner.ids();
         if (order == Order::kAny) std::sort(found.begin(), found.end());
@@ -56,7 +61,10 @@ void Race::run(int repetitions, int frames, Frames count) {
     for (int i = 0; i < repetitions; ++i)
         for (Runner& runner : runners_) {
             std::vector<double> us;
-            for (int k = 0; k < frames; ++k) us.push_back(time_us(runner.frame));
+            for (int k = 0; k < frames; ++k) {
+                if (runner.prepare) runner.prepare();
+                us.push_back(time_us(runner.frame));
+            }
             const double sum = std::accumulate(us.begin(), us.end(), 0.0);
             runner.us.push_back(count == Frames::kBest ? std::ranges::min(us) : sum / frames);
         }

@@ -1,0 +1,19 @@
+#include "tests/bench/octree_bench.h"
+
+namespace swath::bench {
+
+Status bench_octree(Figures& figures, const Effort& effort) {
+    if (!effort.out.empty()) {  // before minutes of measuring, not after
+        std::error_code error;
+        std::filesystem::create_directories(effort.out, error);
+        if (error) return fail("{}: {}", effort.out.string(), error.message());
+    }
+    auto scenes = octree_scenes(figures, effort);
+    if (!scenes) return tl::unexpected(scenes.error());
+    OctreeBench bench{figures, effort, std::move(*scenes)};
+    for (Status (*const part)(OctreeBench&) : {bench_octree_builds, bench_octree_rays, bench_octree_scaling})
+        if (const auto status = part(bench); !status) return status;
+    return bench.draws() ? bench_octree_trade(bench) : Status{};
+}
+
+}  // namespace swath::bench
