@@ -166,11 +166,17 @@ struct Walk {
         hit &= ~equal(sum, zero);
         if (hit == 0) return;
         const Floats along = multiply(shear_z, add(add(multiply(u, az), multiply(v, bz)), multiply(w, cz)));
-        // What is seen edge-on, or has no area, makes u, v and w that mean nothing: their signs would let
-        // rays hit it beside it. So a hit is in the triangle's box, or next to it by rounding. The walk
-        // relies on that.
+        // What is seen edge-on, or has no area, makes u, v and w that mean nothing: by their signs rays would
+        // hit it beside it. So a hit is within the corners as the ray sees them, and in the triangle's box,
+        // or next to either by rounding. The walk relies on the second.
         const Floats off =
             multiply(higher_of(higher_of(absolute(az), absolute(bz)), absolute(cz)), all(0x1p-21f));
+        const Floats below_off = subtract(all(0.0f), off);
+        hit &= at_most(lower_of(lower_of(ax, bx), cx), off) &
+               at_most(below_off, higher_of(higher_of(ax, bx), cx)) &
+               at_most(lower_of(lower_of(ay, by), cy), off) &
+               at_most(below_off, higher_of(higher_of(ay, by), cy));
+        if (hit == 0) return;
         const auto least_of = [&](int axis) {
             const float a = corner[axis];
             const float b = corner[3 + axis];

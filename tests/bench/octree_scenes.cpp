@@ -59,7 +59,7 @@ Result<OctreeScene> load(const std::string& name, const std::string& model, bool
     OctreeScene scene{name, has_bars, build_objects(std::move(*mesh), {}), {}, {}};
     std::vector<glm::vec3> positions;
     for (const Vertex& vertex : scene.set.mesh.vertices) positions.push_back(vertex.position);
-    scene.corners = kernel_corners(positions, scene.set.mesh.indices);
+    kernel_corners(positions, scene.set.mesh.indices, scene.corners);
     scene.views = views_of(scene.set.bounds, name == "conference", smoke);
     return scene;
 }

@@ -96,13 +96,14 @@ struct Scene {
 
 std::vector<Scene> scenes() {
     std::vector<Scene> made;
+    made.reserve(4);  // a tree points into its scene
     made.emplace_back(test::soup(700, 0.3f, 1));
     made.emplace_back(test::bumpy_sphere(12, 0.4f, 2), kFastSah);
     made.emplace_back(test::grid_of_squares(4));
     // Twice the same, from number 600 on.
     Triangles twice = test::soup(300, 0.5f, 3);
     twice.add(test::soup(300, 0.02f, 4));
-    twice.add(twice);
+    twice.add(Triangles(twice));
     made.emplace_back(std::move(twice));
     return made;
 }
@@ -212,8 +213,8 @@ TEST_P(Packets, WithoutARayFindNothing) {
 
 // Both kinds of nearest: the best of what every triangle alone gives, of equals the smallest number.
 TEST_P(Packets, FindTheBestOfWhatEachTriangleAloneGives) {
-    const auto expect_best = [](Kernel kernel, const Scene& scene, const std::vector<Cast>& pool) {
-        int hits = 0;
+    int hits = 0;
+    const auto expect_best = [&hits](Kernel kernel, const Scene& scene, const std::vector<Cast>& pool) {
         for (const Cast& cast : pool) {
             Found best;
             for (const std::uint32_t t : scene.all) {
@@ -226,7 +227,6 @@ TEST_P(Packets, FindTheBestOfWhatEachTriangleAloneGives) {
             ASSERT_EQ(cast_alone(kernel, scene.tree, cast), best);
             hits += best.triangle != kNoTriangle ? 1 : 0;
         }
-        EXPECT_GT(hits, 10);
     };
     for (const Scene& scene : scenes_) {
         expect_best(kernels_.nearest, scene, casts(scene.triangles, 130, 5));
@@ -234,6 +234,7 @@ TEST_P(Packets, FindTheBestOfWhatEachTriangleAloneGives) {
         for (const glm::vec3& eye : eyes_)
             expect_best(kernels_.nearest_by_depth, scene, casts_from(eye, 60, 6));
     }
+    EXPECT_GT(hits, 100);
 }
 
 // Nothing that is before depth 0 or from depth 1 on.
