@@ -132,7 +132,9 @@ SphereGrid sphere_grid(double triangles) {
 // `slices` around and `stacks` from pole to pole.
 void add_sphere(Mesh& mesh, const glm::dvec3& centre, double radius, const Colour& paint,
                 const SphereGrid& grid) {
-    const auto [slices, stacks] = grid;
+    // Without a structured binding, which lambdas of clang 14 cannot capture.
+    const std::size_t slices = grid.slices;
+    const std::size_t stacks = grid.stacks;
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const auto add = [&](const glm::dvec3& direction) {
         Vertex vertex;
