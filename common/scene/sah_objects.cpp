@@ -1,64 +1,230 @@
 #include "common/scene/sah_objects.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <numeric>
 #include <queue>
 
 #include "common/geometry/morton.h"
+#include "common/octree/sah/sah_builder.h"
 
 namespace swath {
 namespace {
 
-// For the time being without the heuristic: the cell with the most triangles is cut in the middle, along all
-// three axes.
+constexpr int kCodeCells = 1 << kMortonDepth;  // of Morton codes, along an axis
+
+// The tree is over a sample, of so many triangles for each object wanted. Its planes lie about where those of
+// a tree over all would, and building it takes no longer for a larger model.
+constexpr std::size_t kSampled = 64;
+// A node of less than this part of an object's share of the triangles is not worth a cut.
+constexpr float kSmallestNode = 0.125f;
+
+// An octree over the boxes of every so many-th triangle.
+SahTree build_tree(std::span<const SahTriangle> triangles, std::size_t objects) {
+    const std::size_t sample = kSampled * objects;
+    const std::size_t step = (triangles.size() + sample - 1) / sample;
+    // Of a box the builder sees a triangle from corner to corner and back.
+    std::vector<glm::vec3> corners;
+    std::vector<std::uint32_t> indices;
+    for (std::size_t i = 0; i < triangles.size(); i += step) {
+        const auto low = static_cast<std::uint32_t>(corners.size());
+        corners.push_back(triangles[i].box.min);
+        corners.push_back(triangles[i].box.max);
+        indices.insert(indices.end(), {low, low + 1, low});
+    }
+    SahSettings settings = kFastSah;
+    settings.kd_triangles = 0;
+    settings.traversal_cost =
+        kSmallestNode * static_cast<float>(indices.size() / 3) / static_cast<float>(objects);
+    SahBuilder builder(1);
+    auto tree = builder.build(
+        {reinterpret_cast<const std::byte*>(corners.data()), sizeof(glm::vec3), corners.size(), indices},
+        settings);
+    // A mesh keeps to the builder's other limits.
+    if (!tree) throw std::bad_alloc();
+    return std::move(*tree);
+}
+
+// Where a node is cut, in cells of codes: along each axis the first one that is above the plane.
+using Planes = std::array<int, 3>;
 
 struct Cell {
-    std::size_t begin = 0;  // of the keys
+    std::size_t begin = 0;  // of the cut's order
     std::size_t end = 0;
-    int depth = 0;
+    std::uint32_t node = 0;  // of the tree
     std::size_t objects = 1;
+    double cost = 0;
 
-    std::size_t triangles() const { return end - begin; }
-    // The queue's first is the largest; of equal ones the first in the order of the tree.
+    // The queue's first costs most; of equal ones it is the first in the tree's order.
     bool operator<(const Cell& other) const {
-        return triangles() != other.triangles() ? triangles() < other.triangles() : begin > other.begin;
+        return cost != other.cost ? cost < other.cost : begin > other.begin;
     }
+};
+
+// The triangles, in an order in which those of every cell stand together.
+class CellCut {
+  public:
+    CellCut(std::span<const SahTriangle> triangles, const Box& bounds, std::size_t objects)
+        : triangles_(triangles),
+          bounds_(bounds),
+          tree_(build_tree(triangles, objects)),
+          at_(triangles.size()),
+          order_(triangles.size()),
+          spare_(triangles.size()) {
+        std::iota(order_.begin(), order_.end(), 0u);
+        for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = code_cell(triangles[i].code);
+        number_materials();
+    }
+
+    const std::vector<std::uint32_t>& order() const { return order_; }
+
+    Cell all() { return cell(0, order_.size(), 0); }
+
+    // The parts of it that hold triangles, in the tree's order; a leaf of the tree is cut in the middle. None
+    // if it cannot be cut.
+    std::vector<Cell> cut(const Cell& cell) {
+        const SahNode& node = tree_.nodes[cell.node];
+        const Planes planes = node.is_leaf() ? middle(cell) : planes_of(node);
+        std::vector<Cell> parts;
+        if (node.is_leaf() && planes == kNoPlanes) return parts;
+        std::array<std::size_t, 9> begins{};
+        for (std::size_t i = cell.begin; i < cell.end; ++i) ++begins[part_of(order_[i], planes) + 1];
+        begins[0] = cell.begin;
+        for (std::size_t part = 0; part < 8; ++part) begins[part + 1] += begins[part];
+        std::array<std::size_t, 9> next = begins;
+        for (std::size_t i = cell.begin; i < cell.end; ++i)
+            spare_[next[part_of(order_[i], planes)]++] = order_[i];
+        for (std::size_t i = cell.begin; i < cell.end; ++i) order_[i] = spare_[i];
+        std::uint32_t child = node.first_child();
+        for (std::uint32_t part = 0; part < 8; ++part) {
+            if (!node.is_leaf() && (part & ~node.axes()) != 0) continue;
+            const std::uint32_t of = node.is_leaf() ? cell.node : child++;
+            if (begins[part] < begins[part + 1])
+                parts.push_back(this->cell(begins[part], begins[part + 1], of));
+        }
+        return parts;
+    }
+
+  private:
+    using CodeCell = std::array<std::uint16_t, 3>;
+    static constexpr Planes kNoPlanes{kCodeCells, kCodeCells, kCodeCells};
+
+    static CodeCell code_cell(std::uint32_t code) {
+        CodeCell at{};
+        for (int bit = 0; bit < kMortonBits; ++bit)
+            at[static_cast<std::size_t>(bit % 3)] |= static_cast<std::uint16_t>((code >> bit & 1) << bit / 3);
+        return at;
+    }
+
+    // From 0 without gaps; left out where there is one only.
+    void number_materials() {
+        std::vector<std::uint32_t> there;
+        for (const SahTriangle& triangle : triangles_)
+            if (there.empty() || there.back() != triangle.material) there.push_back(triangle.material);
+        std::ranges::sort(there);
+        const auto repeated = std::ranges::unique(there);
+        there.erase(repeated.begin(), repeated.end());
+        if (there.size() == 1) return;
+        materials_.resize(triangles_.size());
+        for (std::size_t i = 0; i < materials_.size(); ++i)
+            materials_[i] = static_cast<std::uint32_t>(
+                std::ranges::lower_bound(there, triangles_[i].material) - there.begin());
+        last_cell_.assign(there.size(), 0);
+    }
+
+    // Cells that are large and have many triangles come first. That area counts for more is what the
+    // simulator finds best (docs/simulator.md): swaths grow with objects' sizes, not with their triangles.
+    Cell cell(std::size_t begin, std::size_t end, std::uint32_t node) {
+        Box box;
+        for (std::size_t i = begin; i < end; ++i) box.extend(triangles_[order_[i]].box);
+        const glm::dvec3 size(box.size());
+        const double area = size.x * size.y + (size.x + size.y) * size.z;
+        return {begin, end, node, count_materials(begin, end),
+                area * area * static_cast<double>(end - begin)};
+    }
+
+    std::size_t count_materials(std::size_t begin, std::size_t end) {
+        if (materials_.empty()) return 1;
+        ++cells_;
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            std::size_t& last = last_cell_[materials_[order_[i]]];
+            count += last != cells_ ? 1 : 0;
+            last = cells_;
+        }
+        return count;
+    }
+
+    // A code's cell belongs where its middle is.
+    Planes planes_of(const SahNode& node) const {
+        Planes planes = kNoPlanes;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            const double min = bounds_.min[axis];
+            const double size = bounds_.max[axis] - min;
+            if (!node.cuts(axis) || !(size > 0)) continue;
+            const double at = (node.plane[i] - min) / size * kCodeCells - 0.5;
+            planes[i] = static_cast<int>(std::ceil(std::clamp(at, 0.0, double{kCodeCells})));
+        }
+        return planes;
+    }
+
+    // Of where its triangles are; at the end of an axis along which all are in one place.
+    Planes middle(const Cell& cell) const {
+        CodeCell first = at_[order_[cell.begin]];
+        CodeCell last = first;
+        for (std::size_t i = cell.begin; i < cell.end; ++i)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                first[axis] = std::min(first[axis], at_[order_[i]][axis]);
+                last[axis] = std::max(last[axis], at_[order_[i]][axis]);
+            }
+        Planes planes = kNoPlanes;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (first[axis] < last[axis]) planes[axis] = (first[axis] + last[axis] + 1) / 2;
+        return planes;
+    }
+
+    // As children are numbered: a bit for each axis, set above its plane.
+    std::size_t part_of(std::uint32_t triangle, const Planes& planes) const {
+        const CodeCell& at = at_[triangle];
+        return std::size_t{at[0] >= planes[0]} | std::size_t{at[1] >= planes[1]} << 1 |
+               std::size_t{at[2] >= planes[2]} << 2;
+    }
+
+    std::span<const SahTriangle> triangles_;
+    Box bounds_;
+    SahTree tree_;
+    std::vector<CodeCell> at_;  // of each triangle's code
+    std::vector<std::uint32_t> order_;
+    std::vector<std::uint32_t> spare_;      // for sorting
+    std::vector<std::uint32_t> materials_;  // of each triangle; empty if there is one only
+    std::vector<std::size_t> last_cell_;    // that had a material
+    std::size_t cells_ = 0;                 // so far
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> sah_cells(std::span<const SahTriangle> triangles, const Box& /*bounds*/,
+std::vector<std::uint32_t> sah_cells(std::span<const SahTriangle> triangles, const Box& bounds,
                                      std::size_t objects) {
-    std::vector<MortonKey> keys(triangles.size());
-    for (std::size_t i = 0; i < keys.size(); ++i)
-        keys[i] = {triangles[i].code, static_cast<std::uint32_t>(i)};
-    sort_by_code(keys);
-
-    std::vector<std::uint32_t> materials;
-    const auto make_cell = [&](std::size_t begin, std::size_t end, int depth) {
-        materials.clear();
-        for (std::size_t i = begin; i < end; ++i) materials.push_back(triangles[keys[i].index].material);
-        std::ranges::sort(materials);
-        const auto repeated = std::ranges::unique(materials);
-        return Cell{begin, end, depth, materials.size() - repeated.size()};
-    };
+    CellCut cut(triangles, bounds, objects);
     std::priority_queue<Cell> open;
-    std::vector<Cell> done;  // that cannot be cut further
-    open.push(make_cell(0, keys.size(), 0));
+    std::vector<Cell> done;
+    open.push(cut.all());
     std::size_t count = open.top().objects;
     while (count < objects && !open.empty()) {
         const Cell cell = open.top();
         open.pop();
-        if (cell.depth == kMortonDepth || cell.triangles() == 1) {
+        const std::vector<Cell> parts = cut.cut(cell);
+        if (parts.empty()) {
             done.push_back(cell);
             continue;
         }
         count -= cell.objects;
-        const int shift = kMortonBits - 3 * (cell.depth + 1);
-        for (std::size_t begin = cell.begin, end = begin; begin < cell.end; begin = end) {
-            while (end < cell.end && keys[end].code >> shift == keys[begin].code >> shift) ++end;
-            const Cell child = make_cell(begin, end, cell.depth + 1);
-            count += child.objects;
-            open.push(child);
+        for (const Cell& part : parts) {
+            count += part.objects;
+            open.push(part);
         }
     }
     for (; !open.empty(); open.pop()) done.push_back(open.top());
@@ -67,7 +233,7 @@ std::vector<std::uint32_t> sah_cells(std::span<const SahTriangle> triangles, con
     std::vector<std::uint32_t> cells(triangles.size());
     for (std::size_t number = 0; number < done.size(); ++number)
         for (std::size_t i = done[number].begin; i < done[number].end; ++i)
-            cells[keys[i].index] = static_cast<std::uint32_t>(number);
+            cells[cut.order()[i]] = static_cast<std::uint32_t>(number);
     return cells;
 }
 

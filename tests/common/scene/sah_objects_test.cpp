@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <set>
 
 #include "common/geometry/morton.h"
 #include "common/scene/objects.h"
@@ -52,8 +53,8 @@ TEST(SahObjects, AreRangesOfTrianglesByMaterialOfAboutTheNumberAskedFor) {
         for (const std::size_t asked : {1u, 10u, 100u, 700u}) {
             const ObjectSet set = by_sah(soup(materials), asked);
             EXPECT_EQ(set.cut, (Cut{ObjectsBy::kSah, 0, asked}));
-            EXPECT_GE(set.objects.size(), std::max<std::size_t>(asked / 2, 1)) << asked;
-            EXPECT_LE(set.objects.size(), 2 * asked + 8 * materials) << asked;
+            EXPECT_GE(set.objects.size(), asked);
+            EXPECT_LE(set.objects.size(), asked + 7 * materials);
             std::uint32_t next = 0;
             std::uint32_t material = 0;
             for (const Object& object : set.objects) {
@@ -67,6 +68,34 @@ TEST(SahObjects, AreRangesOfTrianglesByMaterialOfAboutTheNumberAskedFor) {
             }
             EXPECT_EQ(next, set.mesh.triangle_count());
         }
+}
+
+// Small triangles, a hundred to a place, and their codes in the box around all.
+std::vector<SahTriangle> crowds(const std::vector<glm::vec3>& places, Box& bounds) {
+    std::mt19937 random(11);
+    const auto number = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
+    std::vector<SahTriangle> triangles;
+    for (const glm::vec3& place : places)
+        for (int i = 0; i < 100; ++i) {
+            const glm::vec3 low = place + glm::vec3(number(), number(), number());
+            triangles.push_back({{low, low + 0.1f}, 0, 0});
+            bounds.extend(triangles.back().box);
+        }
+    for (SahTriangle& triangle : triangles)
+        triangle.code = morton_code(triangle.box.centre(), bounds.min, bounds.size());
+    return triangles;
+}
+
+// Two and one are on either side of the middle.
+TEST(SahCells, OfCrowdsThatAreApartHaveTrianglesOfOneOnly) {
+    Box bounds;
+    const auto triangles = crowds({{0, 0, 0}, {1.5f, 0, 0}, {9, 0, 0}}, bounds);
+    for (const std::size_t objects : {3u, 5u, 20u}) {
+        const auto cells = sah_cells(triangles, bounds, objects);
+        std::vector<std::set<std::size_t>> crowds_of(objects + 8);
+        for (std::size_t i = 0; i < cells.size(); ++i) crowds_of.at(cells[i]).insert(i / 100);
+        for (const auto& crowd : crowds_of) EXPECT_LE(crowd.size(), 1u);
+    }
 }
 
 // A server cuts what it has anew, a newcomer the model: both must have the same.
