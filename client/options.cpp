@@ -138,6 +138,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::Range(1, 8));
     add_threads_option(app, options.threads);
+    add_trees_option(app, options.cuda)->excludes(remote);
     app.add_option("--out", options.out, "folder for the pictures, frame_0000.png and so on [none are kept]")
         ->excludes(viewer);
     app.add_option("--format", format, "of the pictures: png (exact) or jpeg")

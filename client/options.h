@@ -38,8 +38,9 @@ struct ClientOptions {
     std::uint64_t seed = 1;
     double zoom = 1;
     std::uint32_t in_flight = 3;
-    int threads = -1;  // beside the drawing one, per process; -1: as fits
-    std::string out;   // folder of pictures; empty: none
+    int threads = -1;   // beside the drawing one, per process; -1: as fits
+    bool cuda = false;  // builds the trees of ray casters on this machine
+    std::string out;    // folder of pictures; empty: none
     PictureFormat format = PictureFormat::kPng;
     std::string timeline;  // file; empty: none
     double connect_patience_s = 5;

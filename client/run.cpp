@@ -15,6 +15,7 @@
 #include "client/single/single_run.h"
 #include "common/base/file.h"
 #include "common/program/progress.h"
+#include "common/renderers/make_renderer.h"
 #include "common/scene/model.h"
 #include "common/scene/model_blob.h"
 #include "common/timeline/export.h"
@@ -29,6 +30,11 @@ std::string raster_threads(std::size_t servers) {
     return std::to_string(std::max<std::size_t>(1, std::thread::hardware_concurrency() / servers) - 1);
 }
 
+// A live run's page may ask for ray casters later on.
+bool builds_on_cuda(const ClientOptions& options) {
+    return options.cuda && (options.view || has_raycast(options.renderers)) && can_build_on_cuda();
+}
+
 Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) {
     LocalCluster::Options local;
     local.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -37,6 +43,9 @@ Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) 
                        std::to_string(options.timing.silence_limit / std::chrono::milliseconds(1))};
     local.server_arguments = {
         "--threads", options.threads >= 0 ? std::to_string(options.threads) : raster_threads(options.local)};
+    // The servers see what we see; without a device nobody needs to hear of it from each of them.
+    if (builds_on_cuda(options))
+        local.server_arguments.insert(local.server_arguments.end(), {"--trees-on", "cuda"});
     if (options.view) local.display_arguments = {"--view", *options.view};
     return LocalCluster::start(local);
 }
@@ -102,6 +111,7 @@ std::string command_of(const ClientOptions& options, const LiveWish& wish,
     if (has_raycast(wish.setup.renderers)) {
         if (options.shadows) how += " --shadows";
         if (options.dynamic) how += " --dynamic";
+        if (options.cuda) how += " --trees-on cuda";
     }
     std::string look;
     if (options.pose) look += fmt::format(" --pose {}", *options.pose);
@@ -156,6 +166,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         job.renderer.shadows = options.shadows;
         job.renderer.dynamic = options.dynamic;
         job.renderer.threads = drawing_threads(options.threads);
+        job.renderer.cuda = builds_on_cuda(options);
         job.cull = options.cull;
         job.cameras = std::move(*cameras);
         job.pose = pose_of(options, scene);

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     std::string listen = "127.0.0.1:4000";
     std::string cache = default_cache_folder();
     int threads = -1;
+    bool cuda = false;
     ProgramOptions program;
 
     CLI::App app{
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1 << 24))
         ->each([&](const std::string& v) { options.max_model_bytes = std::stoull(v) << 20; });
     add_threads_option(app, threads);
+    add_trees_option(app, cuda);
     add_program_options(app, program, options.timing);
     add_waiting_options(app, program);
     if (const auto code = parse_options(app, argc, argv)) return *code;
@@ -49,13 +51,17 @@ int main(int argc, char** argv) {
     options.cache = cache;
     options.threads = drawing_threads(threads);
     set_raster_threads(threads);
+    cuda = cuda && can_build_on_cuda();
     // A terminal's Ctrl-C reaches all programs; one on a lifeline leaves it to the one that started it.
     StopSignals signals(kExitDone, !program.lifeline);
     tune_allocator();
 
     const SteadyClock clock;
     boost::asio::io_context io(1);
-    const auto server = make_server(io, options, clock, make_renderer);
+    const auto server = make_server(io, options, clock, [cuda](RendererSetup setup, const ObjectSet& scene) {
+        setup.cuda = cuda;
+        return make_renderer(setup, scene);
+    });
     if (!server) return run_error(server.error());
     announce((*server)->address());
     return run_until_stopped(io, **server, signals, program);

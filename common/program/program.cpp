@@ -51,6 +51,14 @@ std::size_t drawing_threads(int threads) {
     return static_cast<std::size_t>(threads) + 1;
 }
 
+CLI::Option* add_trees_option(CLI::App& app, bool& cuda) {
+    return app
+        .add_option_function<std::string>(
+            "--trees-on", [&cuda](const std::string& device) { cuda = device == "cuda"; },
+            "what builds the trees of ray casters: threads, or cuda where there is a device [threads]")
+        ->check(CLI::IsMember({"threads", "cuda"}));
+}
+
 void start_log(const std::string& program, const ProgramOptions& options) {
     auto logger =
         std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>());

@@ -30,6 +30,9 @@ void set_raster_threads(int threads);
 // How many threads may cull together, the drawing one among them: `threads` and 1, or one a core. At least 1.
 std::size_t drawing_threads(int threads);
 
+// --trees-on threads|cuda: whether ray casters' trees are to be built on a CUDA device.
+CLI::Option* add_trees_option(CLI::App& app, bool& cuda);
+
 // Log lines go to stderr, prefixed by the program.
 void start_log(const std::string& program, const ProgramOptions& options);
 

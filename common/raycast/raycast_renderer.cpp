@@ -31,7 +31,7 @@ class RaycastRenderer final : public Renderer {
           scene_(scene),
           kernels_(packet_kernels(best_instruction_set())),
           arena_(static_cast<int>(setup.threads)),
-          cast_(scene, setup.threads, SahDevice::kThreads),
+          cast_(scene, setup.threads, setup.cuda ? SahDevice::kCuda : SahDevice::kThreads),
           objects_(scene.mesh.triangle_count()) {
         for (ObjectId id = 0; id < scene.objects.size(); ++id) {
             const Object& object = scene.objects[id];
@@ -77,7 +77,8 @@ class RaycastRenderer final : public Renderer {
     }
 
     std::string description() const override {
-        return fmt::format("ray caster, {}, {} threads{}{}", name(best_instruction_set()), setup_.threads,
+        return fmt::format("ray caster, {}, {} threads{}{}{}", name(best_instruction_set()), setup_.threads,
+                           cast_.builder().device() == SahDevice::kCuda ? ", trees by CUDA" : "",
                            setup_.shadows ? ", shadows" : "",
                            setup_.dynamic ? ", a tree for each frame" : "");
     }

@@ -19,6 +19,7 @@ struct RendererSetup {
     bool shadows = false;     // hard ones, cast by the whole model
     bool dynamic = false;     // its tree is built anew for every frame, over what is drawn
     std::size_t threads = 1;  // that may cast rays, the drawing one among them; at least 1
+    bool cuda = false;        // its trees are built on a CUDA device, where there is one, not on the threads
     bool operator==(const RendererSetup&) const = default;
 };
 

@@ -30,7 +30,7 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     {"common/raycast",
      {"common/base", "common/geometry", "common/scene", "common/octree", "common/image", "common/render"}},
     // Makes what implements the interface in render.
-    {"common/renderers", {"common/base", "common/scene", "common/render", "common/raycast"}},
+    {"common/renderers", {"common/base", "common/scene", "common/octree", "common/render", "common/raycast"}},
     // What travels are the values of the layers below.
     {"common/wire",
      {"common/base", "common/geometry", "common/scene", "common/plan", "common/image", "common/timeline",

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <cstdlib>
 
 #include "common/image/picture.h"
+#include "common/octree/sah/sah_builder.h"
 #include "tests/e2e/programs.h"
 
 namespace swath::test {
@@ -40,22 +42,38 @@ TEST_F(Raycast, PicturesEqualThoseOfASingleProcess) {
     compare(kPicture + Arguments{"builtin:knot:3000", "--renderer", "raycast"});
 }
 
-// Every fifth combination still has every algorithm and nearly every number.
 TEST_F(Raycast, PicturesWithShadowsEqualThoseOfASingleProcess) {
-    compare(Arguments{"builtin:knot:1000", "--renderer", "raycast", "--shadows"} + kPicture, 5);
+    compare(Arguments{"builtin:knot:1000", "--renderer", "raycast", "--shadows"} + kPicture);
 }
 
 TEST_F(Raycast, PicturesOfTreesThatAreBuiltForEachFrameEqualThoseOfASingleProcess) {
-    compare(Arguments{"builtin:spheres:3000", "--renderer", "raycast", "--dynamic"} + kPicture, 5);
+    compare(Arguments{"builtin:spheres:3000", "--renderer", "raycast", "--dynamic"} + kPicture);
+}
+
+// Every frame is of another pose.
+TEST_F(Raycast, PicturesOfAModelThatMovesEqualThoseOfASingleProcess) {
+    const Arguments run = Arguments{"builtin:swarm:2000",
+                                    "--renderer",
+                                    "raycast",
+                                    "--frames",
+                                    "5",
+                                    "--size",
+                                    "61x47",
+                                    "--path",
+                                    "random"};
+    compare(run + Arguments{"--dynamic"});
+    // With trees over the whole model, which move as well.
+    compare(run, 5);
+    compare(run + Arguments{"--dynamic", "--shadows"}, 5);
 }
 
 // Faces that coincide: the winner is that of the cut's order.
 TEST_F(Raycast, PicturesOfSahObjectsEqualThoseOfASingleProcess) {
-    for (const char* renderer : {"raycast", "osmesa"})
-        compare(Arguments{"builtin:town:3000", "--renderer", renderer, "--objects-by", "sah", "--objects",
-                          "200"} +
-                    kPicture,
-                5);
+    const Arguments run =
+        Arguments{"builtin:town:3000", "--objects-by", "sah", "--objects", "200"} + kPicture;
+    compare(run + Arguments{"--renderer", "raycast"});
+    // Every fifth combination still has every algorithm and nearly every number.
+    compare(run + Arguments{"--renderer", "osmesa"}, 5);
 }
 
 TEST_F(Raycast, PicturesDependNeitherOnThreadsNorOnATreeBuiltForEachFrame) {
@@ -95,10 +113,51 @@ double share_of_different(const std::string& one, const std::string& other, int 
     return static_cast<double>(different) / static_cast<double>(pixels);
 }
 
+// How often the log says that there is no device for building trees, and why not.
+std::size_t times_missing(const std::string& log) {
+    std::size_t times = 0;
+    const std::string line = "--trees-on cuda: " + missing_cuda();
+    for (std::size_t at = log.find(line); at != std::string::npos; at = log.find(line, at + 1)) ++times;
+    return times;
+}
+
+TEST_F(Raycast, WithoutACudaDeviceTheLogSaysOnceThatThreadsBuildTheTrees) {
+    const std::size_t once = missing_cuda().empty() ? 0 : 1;
+    const Arguments run = Arguments{"builtin:knot:2000", "--renderer", "raycast", "--dynamic"} + kPicture;
+    const std::string expected = render(run + Arguments{"--single"});
+    int number = 0;
+    for (const Arguments& where : {Arguments{"--single"}, Arguments{"--local", "3"}}) {
+        const std::string folder = files_.path_of(fmt::format("cuda_{}", ++number));
+        const Finished finished = client(run + where + Arguments{"--trees-on", "cuda", "--out", folder});
+        EXPECT_EQ(finished.exit_code, 0) << finished.err;
+        EXPECT_EQ(times_missing(finished.err), once) << finished.err;
+        expect_same_pictures(expected, folder);
+    }
+    // A server says so when it starts, not again for every client.
+    RemoteCluster cluster(
+        [&](const std::string& program, const Arguments& arguments) {
+            return start(program,
+                         program == "swath-server" ? arguments + Arguments{"--trees-on", "cuda"} : arguments);
+        },
+        1);
+    for (int client = 0; client < 2; ++client) expect_same_pictures(expected, render(run + cluster.flags()));
+    cluster.server(0).signal(SIGTERM);
+    const Finished server = cluster.server(0).wait(kPatience);
+    EXPECT_EQ(times_missing(server.err), once) << server.err;
+}
+
+// Who draws with OpenGL has no trees.
+TEST_F(Raycast, OnlyRayCastersAskForACudaDevice) {
+    const Finished finished =
+        client(Arguments{"builtin:knot:1000", "--single", "--trees-on", "cuda"} + kPicture);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_EQ(times_missing(finished.err), 0u) << finished.err;
+}
+
 // Measured: at most 3 of 153,600 pixels differ by more than 4 of 255. They are at edges, where OpenGL has
 // moved a corner to its grid within the pixel. The bound leaves room for other libraries.
 TEST_F(Raycast, PicturesOfBothKindsOfServerAreNearlyTheRasterisersPictures) {
-    for (const char* model : {"builtin:knot:3000", "builtin:spheres:3000"}) {
+    for (const char* model : {"builtin:knot:3000", "builtin:spheres:3000", "builtin:swarm:3000"}) {
         const Arguments run = Arguments{model, "--size", "320x240", "--frames", "2"};
         const std::string expected = render(run + Arguments{"--single"});
         const std::string rays = render(run + Arguments{"--single", "--renderer", "raycast"});

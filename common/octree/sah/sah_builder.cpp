@@ -49,6 +49,12 @@ std::size_t machine_bytes() {
 
 }  // namespace
 
+std::string missing_cuda() {
+    std::string why;
+    make_cuda_build(why);
+    return why;
+}
+
 SahBuilder::SahBuilder(std::size_t threads, SahDevice device) : threads_(threads) {
     CHECK(threads > 0u);
     if (device == SahDevice::kCuda) build_ = make_cuda_build(fallback_);

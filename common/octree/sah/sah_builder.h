@@ -15,13 +15,16 @@ class SahBuild;
 // Where trees are built: on threads of this machine, or on a CUDA device.
 enum class SahDevice { kThreads, kCuda };
 
+// Why kCuda cannot be had here: this build has no CUDA, the machine no device. Empty where it can.
+std::string missing_cuda();
+
 // Builds SAH octrees (Improved octree construction of the SAH octree paper, algorithm 1), one after another,
 // and keeps its memory for the next one. The tree depends on the triangles and the settings alone, never on
 // the device or the number of threads. A resource of one thread at a time.
 class SahBuilder {
   public:
-    // `threads`, at least 1, build together. Where kCuda is asked for and cannot be had (this build has no
-    // CUDA, the machine no device), it is kThreads, and fallback() says why.
+    // `threads`, at least 1, build together. Where kCuda is asked for and cannot be had it is kThreads, and
+    // fallback() is missing_cuda().
     explicit SahBuilder(std::size_t threads, SahDevice device = SahDevice::kThreads);
     ~SahBuilder();
 
