@@ -83,7 +83,7 @@ struct Walk {
             reach = higher_of(reach, absolute(subtract(all(tree.high[axis]), origin[axis])));
         }
         // Woop's test is off by a few roundings of coordinates that are as large as this.
-        const Floats off = multiply(reach, all(0x1p-20f));
+        const Floats off = multiply(reach, all(0x1p-17f));
         for (int axis = 0; axis < 3; ++axis) {
             // A ray (almost) along a plane: so steep that slack decides.
             const Floats steep = all(negative[axis] ? -1e18f : 1e18f);
@@ -169,27 +169,29 @@ struct Walk {
         // What is seen edge-on, or has no area, makes u, v and w that mean nothing: by their signs rays would
         // hit it beside it. So a hit is within the corners as the ray sees them, and in the triangle's box,
         // or next to either by rounding. The walk relies on the second.
-        const Floats off =
-            multiply(higher_of(higher_of(absolute(az), absolute(bz)), absolute(cz)), all(0x1p-21f));
+        const Floats deep = higher_of(higher_of(absolute(az), absolute(bz)), absolute(cz));
+        const Floats off = multiply(deep, all(0x1p-21f));
         const Floats below_off = subtract(all(0.0f), off);
         hit &= at_most(lower_of(lower_of(ax, bx), cx), off) &
                at_most(below_off, higher_of(higher_of(ax, bx), cx)) &
                at_most(lower_of(lower_of(ay, by), cy), off) &
                at_most(below_off, higher_of(higher_of(ay, by), cy));
         if (hit == 0) return;
+        // More than t may be wrong where a ray grazes a triangle.
+        const Floats far_off = multiply(deep, all(0x1p-18f));
         const auto least_of = [&](int axis) {
             const float a = corner[axis];
             const float b = corner[3 + axis];
             const float c = corner[6 + axis];
             const float least = b < a ? b : a;
-            return subtract(subtract(all(c < least ? c : least), origin[axis]), off);
+            return subtract(subtract(all(c < least ? c : least), origin[axis]), far_off);
         };
         const auto most_of = [&](int axis) {
             const float a = corner[axis];
             const float b = corner[3 + axis];
             const float c = corner[6 + axis];
             const float most = b > a ? b : a;
-            return add(subtract(all(c > most ? c : most), origin[axis]), off);
+            return add(subtract(all(c > most ? c : most), origin[axis]), far_off);
         };
         if constexpr (kWant == Want::kNearestByDepth) {
             // Depth from 1 / t, which it does not rise with: no division more.

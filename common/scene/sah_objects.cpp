@@ -36,6 +36,7 @@ SahTree build_tree(std::span<const SahTriangle> triangles, std::size_t objects) 
     }
     SahSettings settings = kFastSah;
     settings.kd_triangles = 0;
+    settings.least_gain = kDefaultSah.least_gain;
     settings.traversal_cost =
         kSmallestNode * static_cast<float>(indices.size() / 3) / static_cast<float>(objects);
     SahBuilder builder(1);
