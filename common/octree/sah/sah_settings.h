@@ -20,7 +20,7 @@ struct SahSettings {
     std::uint32_t grain = 0;
     // An octree node is cut along an axis only where that gains at least so much of what the best axis gains:
     // 0 for always, 1 for the best one only. (The paper has always: in scenes of flat, unlike parts that
-    // costs a quarter of a tree's worth.)
+    // costs a fifth of a tree's worth.)
     float least_gain = 0.7f;
     // Whether the places beside the best sample are looked at, too, where a box ends or begins: a pass more.
     bool refine = true;
