@@ -125,8 +125,7 @@ class CellCut {
         for (const SahTriangle& triangle : triangles_)
             if (there.empty() || there.back() != triangle.material) there.push_back(triangle.material);
         std::ranges::sort(there);
-        const auto repeated = std::ranges::unique(there);
-        there.erase(repeated.begin(), repeated.end());
+        there.erase(std::unique(there.begin(), there.end()), there.end());
         if (there.size() == 1) return;
         materials_.resize(triangles_.size());
         for (std::size_t i = 0; i < materials_.size(); ++i)
