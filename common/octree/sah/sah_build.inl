@@ -36,6 +36,7 @@ struct UninitialisedAllocator : thrust::device_malloc_allocator<T> {
 };
 template <class T>
 using Array = thrust::device_vector<T, UninitialisedAllocator<T>>;
+// What Thrust's algorithms are given: its own iterators to device memory bind references to null on threads.
 template <class T>
 T* raw(Array<T>& array) {
     return thrust::raw_pointer_cast(array.data());
@@ -444,8 +445,7 @@ class ThrustBuild {
         }
         make.references = room(references_, count, "the references");
         for_all(count, make);
-        box = thrust::transform_reduce(thrust::device, references_.begin(),
-                                       references_.begin() + static_cast<std::ptrdiff_t>(count), BoxOf{},
+        box = thrust::transform_reduce(thrust::device, raw(references_), raw(references_) + count, BoxOf{},
                                        SahBox{{kHuge, kHuge, kHuge}, {-kHuge, -kHuge, -kHuge}}, Bounding{});
         float size = 0.0f;
         for (int axis = 0; axis < 3; ++axis) size = higher(size, higher(-box.low[axis], box.high[axis]));
@@ -494,9 +494,7 @@ class ThrustBuild {
         for (bool again = true; again;) {
             again = false;
             for_all(chunks.size(), CountChildren{opens, d_chunks, cuts, references, children, counts});
-            thrust::exclusive_scan(thrust::device, counts_.begin(),
-                                   counts_.begin() + static_cast<std::ptrdiff_t>(counted + 1),
-                                   begins_.begin());
+            thrust::exclusive_scan(thrust::device, raw(counts_), raw(counts_) + counted + 1, raw(begins_));
             begins = download(begins_, counted + 1);
             for (std::size_t i = 0; i < opens_.size(); ++i) {
                 const std::uint32_t axes = axes_of(found[i]);
