@@ -41,22 +41,6 @@ template <class T>
 T* raw(Array<T>& array) {
     return thrust::raw_pointer_cast(array.data());
 }
-// As many as that, whatever they hold. Never shrinks: the next build has them already.
-template <class T>
-T* at_least(Array<T>& array, std::size_t size) {
-    if (array.size() < size) {
-        array.clear();
-        array.shrink_to_fit();
-        array.resize(size);
-    }
-    return raw(array);
-}
-template <class T>
-const T* upload(Array<T>& array, const std::vector<T>& values) {
-    at_least(array, values.size());
-    thrust::copy(values.begin(), values.end(), array.begin());
-    return raw(array);
-}
 
 template <class Work>
 void for_all(std::size_t count, const Work& work) {
