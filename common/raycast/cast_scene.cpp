@@ -4,10 +4,15 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/parts.h"
 #include "common/raycast/packets.h"
 
 namespace swath {
 namespace {
+
+// Fewer are not worth waking a thread for.
+constexpr std::size_t kLeastVertices = 1u << 14;
+constexpr std::size_t kLeastWords = 1u << 6;  // of 32 nodes
 
 // The power of two that brings every coordinate of the box to at most 1.
 float scale_for(const Box& box) {
@@ -28,8 +33,8 @@ bool has(const std::vector<std::uint32_t>& bits, std::size_t i) { return (bits[i
 
 }  // namespace
 
-CastScene::CastScene(const ObjectSet& scene, std::size_t threads, SahDevice device)
-    : scene_(scene), threads_(threads), builder_(threads, device), scale_(scale_for(scene.swept_bounds())) {
+CastScene::CastScene(const ObjectSet& scene, ThreadTeam& team, SahDevice device)
+    : scene_(scene), team_(team), builder_(team.size(), device), scale_(scale_for(scene.swept_bounds())) {
     positions_.resize(scene.mesh.vertices.size());
     move();
 }
@@ -42,9 +47,13 @@ void CastScene::pose(float pose) {
 
 // Scaling by a power of two changes no digit.
 void CastScene::move() {
-    for (std::uint32_t v = 0; v < positions_.size(); ++v)
-        positions_[v] = posed(scene_.mesh, v, pose_) * scale_;
-    kernel_corners(positions_, scene_.mesh.indices, corners_);
+    const std::size_t parts = parts_for(positions_.size(), kLeastVertices, team_);
+    run_parts(team_, parts, [&](std::size_t index) {
+        const Part part = part_of(positions_.size(), parts, index);
+        for (std::size_t v = part.begin; v < part.end; ++v)
+            positions_[v] = posed(scene_.mesh, static_cast<std::uint32_t>(v), pose_) * scale_;
+    });
+    kernel_corners(positions_, scene_.mesh.indices, team_, corners_);
 }
 
 Status CastScene::build_all(const SahSettings& settings) {
@@ -85,20 +94,38 @@ void CastScene::want(std::span<const DrawRun> runs) {
     wanted_triangles_.assign((scene_.mesh.triangle_count() + 31) / 32, 0);
     for (const DrawRun& run : runs)
         set_bits(wanted_triangles_, run.first_triangle, std::size_t{run.first_triangle} + run.triangle_count);
-    wanted_nodes_.assign((tree_.nodes.size() + 31) / 32, 0);
+    // Leaves first, by words that threads do not share.
+    wanted_nodes_.resize((tree_.nodes.size() + 31) / 32);
+    const std::size_t parts = parts_for(wanted_nodes_.size(), kLeastWords, team_);
+    run_parts(team_, parts, [&](std::size_t index) {
+        const Part part = part_of(wanted_nodes_.size(), parts, index);
+        for (std::size_t word = part.begin; word < part.end; ++word)
+            wanted_nodes_[word] = wanted_leaves(word);
+    });
     // Children come after their parents.
     for (std::size_t i = tree_.nodes.size(); i-- > 0;) {
         const SahNode& node = tree_.nodes[i];
+        if (node.is_leaf()) continue;
         bool wanted = false;
-        if (node.is_leaf()) {
-            for (std::uint32_t t = 0; t < node.count() && !wanted; ++t)
-                wanted = has(wanted_triangles_, tree_.triangles[node.first() + t]);
-        } else {
-            for (std::uint32_t child = 0; child < node.child_count() && !wanted; ++child)
-                wanted = has(wanted_nodes_, node.first_child() + child);
-        }
+        for (std::uint32_t child = 0; child < node.child_count() && !wanted; ++child)
+            wanted = has(wanted_nodes_, node.first_child() + child);
         if (wanted) wanted_nodes_[i / 32] |= 1u << i % 32;
     }
+}
+
+std::uint32_t CastScene::wanted_leaves(std::size_t word) const {
+    std::uint32_t bits = 0;
+    const std::size_t first = 32 * word;
+    const std::size_t end = std::min(first + 32, tree_.nodes.size());
+    for (std::size_t i = first; i < end; ++i) {
+        const SahNode& node = tree_.nodes[i];
+        if (!node.is_leaf()) continue;
+        bool wanted = false;
+        for (std::uint32_t t = 0; t < node.count() && !wanted; ++t)
+            wanted = has(wanted_triangles_, tree_.triangles[node.first() + t]);
+        if (wanted) bits |= 1u << (i - first);
+    }
+    return bits;
 }
 
 KernelTree CastScene::wanted() const {

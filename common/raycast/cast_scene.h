@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/base/result.h"
+#include "common/base/thread_team.h"
 #include "common/octree/sah/sah_builder.h"
 #include "common/raycast/packet_kernel.h"
 #include "common/scene/draw_run.h"
@@ -12,11 +13,11 @@
 namespace swath {
 
 // The triangles of a model as rays meet them, with a tree over them or over some. Coordinates are scaled by a
-// power of two to at most 1. One thread builds and selects; any may cast.
+// power of two to at most 1. The thread that makes it builds and selects, with its team; any may cast.
 class CastScene {
   public:
-    // `scene` must outlive it.
-    CastScene(const ObjectSet& scene, std::size_t threads, SahDevice device);
+    // `scene` and `team` must outlive it.
+    CastScene(const ObjectSet& scene, ThreadTeam& team, SahDevice device);
 
     float scale() const { return scale_; }
     const SahBuilder& builder() const { return builder_; }
@@ -40,9 +41,11 @@ class CastScene {
 
   private:
     void move();
+    // A bit for each of the nodes 32 * word and on: leaves with a triangle that is wanted.
+    std::uint32_t wanted_leaves(std::size_t word) const;
 
     const ObjectSet& scene_;
-    std::size_t threads_;
+    ThreadTeam& team_;
     SahBuilder builder_;
     float scale_ = 1;
     float pose_ = 0;

@@ -4,11 +4,15 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/parts.h"
 
 namespace swath {
 namespace {
 
 static_assert(sizeof(KernelNode) == sizeof(SahNode));
+
+// Fewer are not worth waking a thread for.
+constexpr std::size_t kLeastCorners = 1u << 14;
 
 // Adds a ray to a packet. Its direction gets a largest component of 1/2 to 1: powers of two change no digit.
 // Returns what distances in the packet are to be multiplied with.
@@ -39,11 +43,15 @@ const PacketKernels& packet_kernels(InstructionSet set) {
 }
 
 void kernel_corners(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
-                    std::vector<float>& corners) {
+                    ThreadTeam& team, std::vector<float>& corners) {
     corners.resize(3 * indices.size() + kPacketRays);
-    for (std::size_t i = 0; i < indices.size(); ++i)
-        for (int axis = 0; axis < 3; ++axis)
-            corners[3 * i + static_cast<std::size_t>(axis)] = positions[indices[i]][axis];
+    const std::size_t parts = parts_for(indices.size(), kLeastCorners, team);
+    run_parts(team, parts, [&](std::size_t index) {
+        const Part part = part_of(indices.size(), parts, index);
+        for (std::size_t i = part.begin; i < part.end; ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                corners[3 * i + static_cast<std::size_t>(axis)] = positions[indices[i]][axis];
+    });
 }
 
 KernelTree kernel_tree(const SahTree& tree, std::span<const float> corners) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/instruction_set.h"
+#include "common/base/thread_team.h"
 #include "common/octree/sah/sah_tree.h"
 #include "common/raycast/packet_kernel.h"
 
@@ -20,7 +21,7 @@ const PacketKernels& packet_kernels(InstructionSet set);
 // are not read as corners. Kernels square what is as large as a coordinate, so coordinates must not be beyond
 // 1e9 (or scaled).
 void kernel_corners(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
-                    std::vector<float>& corners);
+                    ThreadTeam& team, std::vector<float>& corners);
 
 KernelTree kernel_tree(const SahTree& tree, std::span<const float> corners);
 

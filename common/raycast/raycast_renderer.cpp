@@ -1,10 +1,8 @@
 #include "common/raycast/raycast_renderer.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -30,8 +28,8 @@ class RaycastRenderer final : public Renderer {
         : setup_(setup),
           scene_(scene),
           kernels_(packet_kernels(best_instruction_set())),
-          arena_(static_cast<int>(setup.threads)),
-          cast_(scene, setup.threads, setup.cuda ? SahDevice::kCuda : SahDevice::kThreads),
+          team_(setup.threads, clock_),
+          cast_(scene, team_, setup.cuda ? SahDevice::kCuda : SahDevice::kThreads),
           objects_(scene.mesh.triangle_count()) {
         for (ObjectId id = 0; id < scene.objects.size(); ++id) {
             const Object& object = scene.objects[id];
@@ -53,12 +51,13 @@ class RaycastRenderer final : public Renderer {
         if (const auto status = prepare(runs, view.pose); !status) return status;
         const int columns = (rect.width() + kBlock - 1) / kBlock;
         const int blocks = columns * ((rect.height() + kBlock - 1) / kBlock);
-        arena_.execute([&] {
-            tbb::parallel_for(0, blocks, [&](int block) {
+        std::atomic<int> next{0};
+        team_.run([&](std::size_t) {
+            for (int block; (block = next.fetch_add(1, std::memory_order_relaxed)) < blocks;) {
                 const int x = rect.x0 + kBlock * (block % columns);
                 const int y = rect.y0 + kBlock * (block / columns);
                 cast_block({x, y, std::min(x + kBlock, rect.x1), std::min(y + kBlock, rect.y1)}, *rays, view);
-            });
+            }
         });
         return {};
     }
@@ -185,7 +184,8 @@ class RaycastRenderer final : public Renderer {
     RendererSetup setup_;
     const ObjectSet& scene_;
     const PacketKernels& kernels_;
-    tbb::task_arena arena_;
+    SteadyClock clock_;  // the team's; nobody asks for its times
+    ThreadTeam team_;
     CastScene cast_;
     std::optional<float> tree_pose_ = 0.0f;  // of a tree over all; none where it could not be built
     std::vector<ObjectId> objects_;          // of each triangle

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/base/check.h"
-#include "common/resource/parts.h"
+#include "common/base/parts.h"
 
 namespace swath {
 namespace {

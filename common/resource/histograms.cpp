@@ -1,6 +1,6 @@
 #include "common/resource/histograms.h"
 
-#include "common/resource/parts.h"
+#include "common/base/parts.h"
 
 namespace swath {
 namespace {

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "common/base/check.h"
-#include "common/resource/parts.h"
+#include "common/base/parts.h"
 
 namespace swath {
 namespace {

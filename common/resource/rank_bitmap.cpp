@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "common/base/check.h"
+#include "common/base/parts.h"
 #include "common/resource/bitmap_kernel.h"
-#include "common/resource/parts.h"
 
 namespace swath {
 namespace {

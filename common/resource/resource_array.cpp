@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
-#include "common/resource/parts.h"
+#include "common/base/parts.h"
 
 namespace swath {
 

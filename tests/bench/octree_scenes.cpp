@@ -59,7 +59,9 @@ Result<OctreeScene> load(const std::string& name, const std::string& model, bool
     OctreeScene scene{name, has_bars, build_objects(std::move(*mesh), {}), {}, {}};
     std::vector<glm::vec3> positions;
     for (const Vertex& vertex : scene.set.mesh.vertices) positions.push_back(vertex.position);
-    kernel_corners(positions, scene.set.mesh.indices, scene.corners);
+    const SteadyClock clock;
+    ThreadTeam alone(1, clock);
+    kernel_corners(positions, scene.set.mesh.indices, alone, scene.corners);
     scene.views = views_of(scene.set.bounds, name == "conference", smoke);
     return scene;
 }

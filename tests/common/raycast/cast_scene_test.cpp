@@ -53,7 +53,9 @@ Hits hits_in(const KernelTree& tree, const std::vector<Ray>& rays) {
 class CastSceneTest : public testing::Test {
   protected:
     const ObjectSet scene_ = build_objects(test::triangle_soup(2500, 3), {3, 0});
-    CastScene cast_{scene_, 2, SahDevice::kThreads};
+    const SteadyClock clock_;
+    ThreadTeam two_{2, clock_};
+    CastScene cast_{scene_, two_, SahDevice::kThreads};
     std::vector<Ray> rays(std::uint32_t seed, float pose = 0) const {
         return test::rays_at(scaled(scene_.mesh, cast_.scale(), pose), 400, seed);
     }
@@ -62,7 +64,7 @@ class CastSceneTest : public testing::Test {
 TEST_F(CastSceneTest, IsScaledByAPowerOfTwoToAtMostOne) {
     for (const float size : {1e-30f, 1e-3f, 0.7f, 1.0f, 1e9f, 1e17f}) {
         const ObjectSet cube = build_objects(test::cube(size), {1, 0});
-        const CastScene cast(cube, 1, SahDevice::kThreads);
+        const CastScene cast(cube, two_, SahDevice::kThreads);
         int exponent = 0;
         EXPECT_EQ(std::frexp(cast.scale(), &exponent), 0.5f);
         EXPECT_LE(cast.scale() * size, 1.0f);
@@ -79,7 +81,7 @@ TEST_F(CastSceneTest, IsScaledByAPowerOfTwoToAtMostOne) {
 // What is wanted of a tree over all is what a tree over that has.
 TEST_F(CastSceneTest, WantedFindsWhatATreeOfThatFinds) {
     Numbers numbers(4);
-    CastScene part(scene_, 1, SahDevice::kThreads);
+    CastScene part(scene_, two_, SahDevice::kThreads);
     for (const SahSettings& settings : {kDefaultSah, kFastSah}) {
         ASSERT_TRUE(cast_.build_all(settings).has_value());
         for (int repeat = 0; repeat < 12; ++repeat) {
@@ -140,7 +142,9 @@ TEST_F(CastSceneTest, WithoutTrianglesIsAnError) {
 TEST(MovingCastScene, IsWhereItsTrianglesAreAtAPose) {
     const ObjectSet scene = build_objects(*make_builtin("swarm", 3000), {3, 0});
     ASSERT_TRUE(scene.moves());
-    CastScene cast(scene, 2, SahDevice::kThreads);
+    const SteadyClock clock;
+    ThreadTeam two(2, clock);
+    CastScene cast(scene, two, SahDevice::kThreads);
     for (const float pose : {0.0f, 0.25f, 1.0f, 1.0f / 3, 0.0f}) {
         cast.pose(pose);
         ASSERT_TRUE(cast.build_all(kDefaultSah).has_value());
@@ -151,6 +155,32 @@ TEST(MovingCastScene, IsWhereItsTrianglesAreAtAPose) {
         for (const Ray& ray : rays)
             expected.push_back(nearest_hit_of_all(portable::kPacketKernels, corners, triangles.count(), ray));
         EXPECT_EQ(hits_in(cast.wanted(), rays), expected) << pose;
+    }
+}
+
+// Of so many triangles that a team shares the work.
+TEST(MovingCastScene, IsTheSameForAnyTeam) {
+    const ObjectSet scene = build_objects(*make_builtin("swarm", 60'000), {3, 0});
+    const SteadyClock clock;
+    ThreadTeam alone(1, clock);
+    ThreadTeam five(5, clock);
+    CastScene one(scene, alone, SahDevice::kThreads);
+    CastScene other(scene, five, SahDevice::kThreads);
+    Numbers numbers(8);
+    for (const float pose : {0.0f, 0.7f}) {
+        for (CastScene* cast : {&one, &other}) {
+            cast->pose(pose);
+            ASSERT_TRUE(cast->build_all(kFastSah).has_value());
+        }
+        for (std::uint32_t t = 0; t < scene.mesh.triangle_count(); ++t)
+            for (int k = 0; k < 3; ++k) ASSERT_EQ(one.corner(t, k), other.corner(t, k));
+        const std::vector<DrawRun> runs = some_runs(scene, numbers);
+        one.want(runs);
+        other.want(runs);
+        const auto rays = test::rays_at(scaled(scene.mesh, one.scale(), pose), 2000, 9);
+        const Hits hits = hits_in(one.wanted(), rays);
+        EXPECT_NE(hits, hits_in(one.all(), rays));
+        EXPECT_EQ(hits, hits_in(other.wanted(), rays));
     }
 }
 
