@@ -1,5 +1,12 @@
+#if defined(__SANITIZE_THREAD__)
+#define THRUST_DEVICE_SYSTEM THRUST_DEVICE_SYSTEM_CPP  // see for_all()
+#else
 #define THRUST_DEVICE_SYSTEM THRUST_DEVICE_SYSTEM_TBB
+#endif
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
 
 #include "common/octree/sah/sah_build.h"
 
@@ -18,8 +25,10 @@ namespace {
 
 class TbbBuild final : public SahBuild {
   public:
+    // More threads than processors only wait for each other, and TBB says so on standard error.
     explicit TbbBuild(std::size_t threads)
-        : arena_(static_cast<int>(threads)), build_(static_cast<std::uint32_t>(4 * threads)) {}
+        : arena_(std::min(static_cast<int>(threads), tbb::info::default_concurrency())),
+          build_(static_cast<std::uint32_t>(4 * threads)) {}
     SahOutcome build(const SahTriangles& triangles, const SahSettings& settings) override {
         return arena_.execute([&] { return build_.build(triangles, settings); });
     }

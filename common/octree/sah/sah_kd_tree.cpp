@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "common/octree/sah/sah_check.h"
+
 namespace swath {
 namespace {
 
@@ -44,7 +46,6 @@ class KdBuild {
     explicit KdBuild(const SahSettings& settings) : settings_(settings) {}
 
     Result<SahTree> build(const SahTriangles& triangles) {
-        if (triangles.count() == 0) return fail("there are no triangles");
         references_.reserve(4 * triangles.count());
         for (std::size_t t = 0; t < triangles.count(); ++t) {
             Reference& reference = references_.emplace_back();
@@ -224,6 +225,7 @@ class KdBuild {
 }  // namespace
 
 Result<SahTree> build_sah_kd_tree(const SahTriangles& triangles, const SahSettings& settings) {
+    if (const auto status = check_sah(triangles, settings); !status) return tl::unexpected(status.error());
     return KdBuild(settings).build(triangles);
 }
 

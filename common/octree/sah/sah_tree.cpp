@@ -16,6 +16,7 @@ struct Visit {
 }  // namespace
 
 double sah_cost(const SahTree& tree, double traversal, double intersection) {
+    if (!(area(tree.box) > 0)) return 0;
     std::vector<Visit> stack{{0, tree.box}};
     double sum = 0;
     while (!stack.empty()) {

@@ -53,7 +53,8 @@ struct SahTree {
 // What a ray that crosses the tree's box is expected to cost, if it hits nothing: `traversal` for each inner
 // node and `intersection` for each triangle of a leaf, each times the chance of meeting its box, by surface
 // areas (MacDonald and Booth; equation 1 of the SAH octree paper is one step of it). A node that is cut along
-// several axes counts as the kd nodes that do the same, so that octrees and kd-trees compare.
+// several axes counts as the kd nodes that do the same, so that octrees and kd-trees compare. 0 for a box
+// without area, which no ray meets.
 double sah_cost(const SahTree& tree, double traversal, double intersection);
 
 }  // namespace swath

@@ -21,6 +21,11 @@ TEST(SahCost, OfALeafIsThatOfItsTriangles) {
     EXPECT_DOUBLE_EQ(cost(tree_of({SahNode::leaf(0, 0)})), 0);
 }
 
+TEST(SahCost, OfABoxWithoutAreaIsZero) {
+    EXPECT_EQ(cost({{glm::vec3(1), glm::vec3(1, 1, 5)}, {SahNode::leaf(0, 7)}, {}}), 0);
+    EXPECT_EQ(cost({{glm::vec3(1), glm::vec3(1)}, {SahNode::leaf(0, 1)}, {}}), 0);
+}
+
 TEST(SahCost, OfAKdNodeIsEquationOne) {
     // 1 by 4 by 4 is 24, 3 by 4 by 4 is 40.
     const SahTree tree = tree_of({SahNode::inner({1, 0, 0}, 1, 1), SahNode::leaf(0, 5), SahNode::leaf(5, 2)});

@@ -102,6 +102,9 @@ TEST_F(SahInput, WithSettingsOutOfRangeIsRefused) {
         SahSettings settings = kDefaultSah;
         change(settings);
         EXPECT_THAT(error_of(good_.view(), settings), HasSubstr(what));
+        const auto kd_tree = build_sah_kd_tree(good_.view(), settings);
+        ASSERT_FALSE(kd_tree.has_value());
+        EXPECT_THAT(kd_tree.error().message, HasSubstr(what));
     };
     expect_refused("bins", [](SahSettings& s) { s.min_bins = 1; });
     expect_refused("bins", [](SahSettings& s) { s.max_bins = kMaxBins + 1; });
