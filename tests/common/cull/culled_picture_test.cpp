@@ -3,38 +3,12 @@
 #include "common/cull/leaf_cull.h"
 #include "common/renderers/make_renderer.h"
 #include "tests/common/cull/cull_scenes.h"
+#include "tests/support/drawings.h"
 
 // Culling for a rectangle changes no bit of it: colour, depth or id.
 
 namespace swath {
 namespace {
-
-struct Counted {
-    int different = 0;
-    int active = 0;
-};
-
-Counted compare(const PixelFrame& a, const PixelFrame& b, const Rect& rect) {
-    Counted counted;
-    for (int y = rect.y0; y < rect.y1; ++y)
-        for (int x = rect.x0; x < rect.x1; ++x) {
-            const bool active = *a.depth(x, y) < kFarDepth;
-            counted.active += active ? 1 : 0;
-            const bool same = *a.depth(x, y) == *b.depth(x, y) &&
-                              (!active || (*a.colour(x, y) == *b.colour(x, y) && *a.id(x, y) == *b.id(x, y)));
-            counted.different += same ? 0 : 1;
-        }
-    return counted;
-}
-
-PixelFrame draw(Renderer& renderer, const DrawList& list, const View& view, const Rect& rect) {
-    const Status drawn = renderer.draw(list.runs, view, rect);
-    EXPECT_TRUE(drawn.has_value()) << drawn.error().message;
-    PixelFrame frame;
-    frame.reshape(rect);
-    EXPECT_TRUE(renderer.read(rect, frame).has_value());
-    return frame;
-}
 
 TEST(CulledPicture, EqualsThatOfTheWholeModel) {
     const SteadyClock clock;
@@ -52,11 +26,12 @@ TEST(CulledPicture, EqualsThatOfTheWholeModel) {
             for (int round = 0; round < 60; ++round) {
                 const View view = random.posed_view(scene);
                 const Rect rect = random.rect(view);
-                const PixelFrame expected = draw(**renderer, none.cull(all, view, rect), view, rect);
-                const Counted counted =
-                    compare(expected, draw(**renderer, wide.cull(all, view, rect), view, rect), rect);
-                ASSERT_EQ(counted.different, 0) << "round " << round << ", " << rect;
-                active += counted.active;
+                const PixelFrame expected =
+                    test::draw(**renderer, none.cull(all, view, rect).runs, view, rect);
+                const test::Difference found = test::compare(
+                    expected, test::draw(**renderer, wide.cull(all, view, rect).runs, view, rect), rect);
+                ASSERT_EQ(found.pixels, 0) << "round " << round << ", " << rect;
+                active += found.active;
             }
         }
     EXPECT_GT(active, 20'000);

@@ -14,6 +14,7 @@
 #include "common/renderers/make_renderer.h"
 #include "common/scene/model.h"
 #include "common/scene/procedural.h"
+#include "tests/support/drawings.h"
 #include "tests/support/models.h"
 
 // A pixel depends on the objects and the view only, and is nearly the rasteriser's.
@@ -21,22 +22,14 @@
 namespace swath {
 namespace {
 
+using test::all_of;
+using test::compare;
+using test::Difference;
+using test::draw;
+using test::expect_same;
+using test::view_of;
 using testing::HasSubstr;
 
-ObjectSet scene_of(const std::string& model, std::size_t triangles) {
-    return build_objects(*make_builtin(model, triangles), {3, 0});
-}
-
-View view_of(const ObjectSet& scene, int width = 97, int height = 61) {
-    Camera camera;
-    const float size = glm::length(scene.bounds.size());
-    camera.target = scene.bounds.centre();
-    camera.eye = camera.target + size * glm::vec3(0.5f, 0.4f, 0.7f);
-    camera.fov_y = 0.8f;
-    camera.near = 0.01f * size;
-    camera.far = 4 * size;
-    return make_view(camera, width, height);
-}
 // In the middle of it, with surfaces on all sides, some of them before the near plane.
 View view_inside(const ObjectSet& scene) {
     Camera camera;
@@ -47,12 +40,6 @@ View view_inside(const ObjectSet& scene) {
     camera.near = 0.02f * glm::length(size);
     camera.far = 0.4f * glm::length(size);
     return make_view(camera, 97, 61);
-}
-
-std::vector<DrawRun> all_of(const ObjectSet& scene) {
-    std::vector<ObjectId> ids(scene.objects.size());
-    for (ObjectId id = 0; id < ids.size(); ++id) ids[id] = id;
-    return whole_objects(scene.objects, ids);
 }
 
 struct How {
@@ -69,14 +56,6 @@ std::unique_ptr<Renderer> make(const ObjectSet& scene, const How& how = {}) {
     return renderer ? std::move(*renderer) : nullptr;
 }
 
-PixelFrame draw(Renderer& renderer, std::span<const DrawRun> runs, const View& view, const Rect& rect) {
-    const Status drawn = renderer.draw(runs, view, rect);
-    EXPECT_TRUE(drawn.has_value()) << drawn.error().message;
-    PixelFrame frame;
-    frame.reshape(rect);
-    EXPECT_TRUE(renderer.read(rect, frame).has_value());
-    return frame;
-}
 PixelFrame draw(const ObjectSet& scene, const View& view, const How& how) {
     return draw(*make(scene, how), all_of(scene), view, view.viewport());
 }
@@ -91,32 +70,9 @@ PixelFrame rasterise(const ObjectSet& scene, const View& view) {
     return frame;
 }
 
-struct Difference {
-    int pixels = 0;
-    int active = 0;
-};
-// Bit by bit; background has a depth only.
-Difference compare(const PixelFrame& a, const PixelFrame& b, const Rect& rect) {
-    Difference found;
-    for (int y = rect.y0; y < rect.y1; ++y)
-        for (int x = rect.x0; x < rect.x1; ++x) {
-            const bool active = *a.depth(x, y) < kFarDepth;
-            found.active += active ? 1 : 0;
-            const bool same = *a.depth(x, y) == *b.depth(x, y) &&
-                              (!active || (*a.colour(x, y) == *b.colour(x, y) && *a.id(x, y) == *b.id(x, y)));
-            found.pixels += same ? 0 : 1;
-        }
-    return found;
-}
-void expect_same(const PixelFrame& a, const PixelFrame& b, const Rect& rect) {
-    const Difference found = compare(a, b, rect);
-    EXPECT_EQ(found.pixels, 0);
-    EXPECT_GT(found.active, 0);
-}
-
 class RaycastRendererOf : public testing::TestWithParam<const char*> {
   protected:
-    const ObjectSet scene_ = scene_of(GetParam(), 5000);
+    const ObjectSet scene_ = test::builtin_scene(GetParam(), 5000);
     const std::vector<DrawRun> all_ = all_of(scene_);
     const std::vector<View> views_{view_of(scene_), view_inside(scene_)};
 };
@@ -188,7 +144,7 @@ TEST_P(RaycastRendererOf, ForgetsTheFrameBefore) {
 
 // Drawn together, the smaller id of equal depths shows, as compositing has it.
 TEST(RaycastRenderer, SettlesTiesByTheSmallerId) {
-    const ObjectSet scene = scene_of("town", 5000);
+    const ObjectSet scene = test::builtin_scene("town", 5000);
     const View view = view_of(scene);
     const PixelFrame whole = draw(scene, view, {});
     const auto renderer = make(scene);
@@ -212,7 +168,7 @@ TEST(RaycastRenderer, SettlesTiesByTheSmallerId) {
 }
 
 TEST(RaycastRenderer, ReadsAPartIntoALargerFrameAndLeavesTheRestAlone) {
-    const ObjectSet scene = scene_of("knot", 2000);
+    const ObjectSet scene = test::builtin_scene("knot", 2000);
     const View view = view_of(scene);
     const auto renderer = make(scene);
     const PixelFrame whole = draw(*renderer, all_of(scene), view, view.viewport());
@@ -227,7 +183,7 @@ TEST(RaycastRenderer, ReadsAPartIntoALargerFrameAndLeavesTheRestAlone) {
 }
 
 TEST(RaycastRenderer, DoesNotDrawARunOutsideOfItsObject) {
-    const ObjectSet scene = scene_of("knot", 2000);
+    const ObjectSet scene = test::builtin_scene("knot", 2000);
     const View view = view_of(scene);
     const DrawRun good = all_of(scene)[1];
     for (const How& how : kHows) {
@@ -244,7 +200,7 @@ TEST(RaycastRenderer, DoesNotDrawARunOutsideOfItsObject) {
 }
 
 TEST(RaycastRenderer, SaysWhatItIs) {
-    const ObjectSet scene = scene_of("knot", 2000);
+    const ObjectSet scene = test::builtin_scene("knot", 2000);
     EXPECT_THAT(make(scene, {true, true, 3})->description(),
                 testing::AllOf(HasSubstr("ray caster"), HasSubstr("3 threads"), HasSubstr("shadows"),
                                HasSubstr("each frame")));
@@ -252,7 +208,7 @@ TEST(RaycastRenderer, SaysWhatItIs) {
 
 // A view that has no rays, or none that are numbers.
 TEST(RaycastRenderer, RefusesAViewThatIsNoPerspective) {
-    const ObjectSet scene = scene_of("knot", 2000);
+    const ObjectSet scene = test::builtin_scene("knot", 2000);
     const std::vector<DrawRun> all = all_of(scene);
     const View good = view_of(scene);
     for (const How& how : kHows) {
@@ -393,7 +349,7 @@ void expect_agreement(const ObjectSet& scene, double least_away) {
 TEST(RaycastRenderer, HasTheRasterisersDepthsAwayFromSilhouettes) {
     for (const char* model : {"knot", "town", "spheres"}) {
         SCOPED_TRACE(model);
-        expect_agreement(scene_of(model, 20'000), 0.25);
+        expect_agreement(test::builtin_scene(model, 20'000), 0.25);
     }
 }
 TEST(RaycastRenderer, HasTheRasterisersDepthsOfTheDragonAwayFromSilhouettes) {

@@ -11,6 +11,7 @@
 #include "common/base/check.h"
 #include "common/image/pixel_codec.h"
 #include "common/scene/procedural.h"
+#include "tests/support/drawings.h"
 
 // What makes a cluster's picture exact: a pixel depends on the objects and the view only, not on who draws
 // it, which other pixels are drawn with it or what was drawn before.
@@ -18,46 +19,21 @@
 namespace swath {
 namespace {
 
+using test::all_of;
+using test::compare;
+using test::Difference;
+using test::draw;
+using test::expect_same;
+using test::view_of;
 using testing::HasSubstr;
 
 constexpr int kWidth = 97;
 constexpr int kHeight = 61;
 
-ObjectSet scene(const std::string& model, std::size_t triangles) {
-    return build_objects(*make_builtin(model, triangles), {3, 0});
-}
-
-View view_of(const ObjectSet& scene, int width = kWidth, int height = kHeight) {
-    Camera camera;
-    const float size = glm::length(scene.bounds.size());
-    camera.target = scene.bounds.centre();
-    camera.eye = camera.target + size * glm::vec3(0.5f, 0.4f, 0.7f);
-    camera.fov_y = 0.8f;
-    camera.near = 0.01f * size;
-    camera.far = 4 * size;
-    return make_view(camera, width, height);
-}
-
-std::vector<DrawRun> all_of(const ObjectSet& scene) {
-    std::vector<ObjectId> ids(scene.objects.size());
-    for (ObjectId id = 0; id < ids.size(); ++id) ids[id] = id;
-    return whole_objects(scene.objects, ids);
-}
-
 std::unique_ptr<Renderer> make(const ObjectSet& scene, RendererKind kind = RendererKind::kOsmesa) {
     auto renderer = make_gl_renderer(kind, scene);
     EXPECT_TRUE(renderer.has_value()) << renderer.error().message;
     return renderer ? std::move(*renderer) : nullptr;
-}
-
-PixelFrame draw(Renderer& renderer, std::span<const DrawRun> runs, const View& view, const Rect& rect) {
-    const Status drawn = renderer.draw(runs, view, rect);
-    EXPECT_TRUE(drawn.has_value()) << drawn.error().message;
-    PixelFrame frame;
-    frame.reshape(rect);
-    const Status read = renderer.read(rect, frame);
-    EXPECT_TRUE(read.has_value()) << read.error().message;
-    return frame;
 }
 
 // On a machine of its own, as it were: a renderer is bound to its thread and alone there.
@@ -70,32 +46,9 @@ PixelFrame draw_elsewhere(const ObjectSet& scene, std::span<const DrawRun> runs,
     return frame;
 }
 
-struct Difference {
-    int pixels = 0;
-    int active = 0;
-};
-// Bit by bit; background has a depth only.
-Difference compare(const PixelFrame& a, const PixelFrame& b, const Rect& rect) {
-    Difference found;
-    for (int y = rect.y0; y < rect.y1; ++y)
-        for (int x = rect.x0; x < rect.x1; ++x) {
-            const bool active = *a.depth(x, y) < kFarDepth;
-            found.active += active ? 1 : 0;
-            const bool same = *a.depth(x, y) == *b.depth(x, y) &&
-                              (!active || (*a.colour(x, y) == *b.colour(x, y) && *a.id(x, y) == *b.id(x, y)));
-            found.pixels += same ? 0 : 1;
-        }
-    return found;
-}
-void expect_same(const PixelFrame& a, const PixelFrame& b, const Rect& rect) {
-    const Difference found = compare(a, b, rect);
-    EXPECT_EQ(found.pixels, 0);
-    EXPECT_GT(found.active, 0);
-}
-
 class RendererTest : public testing::Test {
   protected:
-    explicit RendererTest(const char* model = "knot") : scene_(scene(model, 6000)) {}
+    explicit RendererTest(const char* model = "knot") : scene_(test::builtin_scene(model, 6000)) {}
     const ObjectSet scene_;
     const std::vector<DrawRun> all_ = all_of(scene_);
     const View view_ = view_of(scene_);
