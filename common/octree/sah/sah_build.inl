@@ -24,6 +24,9 @@
 namespace swath {
 namespace {
 
+// Lists of references, of a grain each, that a worker who finishes a subtree has room for.
+constexpr std::uint32_t kScratchLists = 8;
+
 // Device memory that is not initialised: most of it is written before it is read, and some never.
 template <class T>
 struct UninitialisedAllocator : thrust::device_malloc_allocator<T> {

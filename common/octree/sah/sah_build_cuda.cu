@@ -11,7 +11,6 @@ namespace {
 constexpr bool kOnHost = false;
 // Enough for every multiprocessor to have work while the root is cut.
 constexpr std::uint32_t kChunk = 256;
-constexpr std::uint32_t kScratchLists = 8;
 constexpr std::uint32_t kWorkers = 4096;
 }  // namespace
 }  // namespace swath

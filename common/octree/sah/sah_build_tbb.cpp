@@ -15,7 +15,6 @@ namespace {
 constexpr bool kOnHost = true;
 // References that a thread works on at once: 128 KiB.
 constexpr std::uint32_t kChunk = 4096;
-constexpr std::uint32_t kScratchLists = 8;
 }  // namespace
 }  // namespace swath
 #include "common/octree/sah/sah_build.inl"
