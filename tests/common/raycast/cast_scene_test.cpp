@@ -53,7 +53,7 @@ Hits hits_in(const KernelTree& tree, const std::vector<Ray>& rays) {
 class CastSceneTest : public testing::Test {
   protected:
     const ObjectSet scene_ = build_objects(test::triangle_soup(2500, 3), {3, 0});
-    const SteadyClock clock_;
+    SteadyClock clock_;
     ThreadTeam two_{2, clock_};
     CastScene cast_{scene_, two_, SahDevice::kThreads};
     std::vector<Ray> rays(std::uint32_t seed, float pose = 0) const {
