@@ -24,7 +24,6 @@ namespace {
 
 using test::all_of;
 using test::compare;
-using test::Difference;
 using test::draw;
 using test::expect_same;
 using test::view_of;
