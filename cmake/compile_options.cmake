@@ -54,18 +54,12 @@ function(swath_kernel library source)
   endforeach()
 endfunction()
 
-# swath_compile_fast(TARGET): for what only checks. Half of a build is tests, and -O1 takes a third off their time.
-function(swath_compile_fast target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-endfunction()
-
 # swath_test(NAME LABEL SOURCES...): a GoogleTest program; every TEST becomes a ctest test with LABEL.
 include(GoogleTest)
 function(swath_test name label)
   add_executable(${name} ${ARGN})
   target_link_libraries(${name} PRIVATE swath_options GTest::gmock GTest::gtest GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  swath_compile_fast(${name})
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${label} TIMEOUT 300)
 endfunction()
