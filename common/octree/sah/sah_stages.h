@@ -1,7 +1,7 @@
 #pragma once
-// The stages of an SAH build, each a function object that is called for every chunk of references, every node or every
-// subtree of a level, side by side and in any order: no call writes what another one of the same stage reads or
-// writes.
+// The stages of an SAH build, each a function object that is called for every chunk of references, every node
+// or every subtree of a level, side by side and in any order: no call writes what another one of the same
+// stage reads or writes.
 #include <cstddef>
 #include <cstdint>
 
