@@ -6,9 +6,10 @@ namespace swath {
 
 // Who merges the pixels that servers exchange.
 enum class Compositing {
-    kGraphics,  // the graphics card: a swath is read from and written to its buffers on its own (Samanta
-                // 2000)
-    kHost,      // host memory: a server reads all it drew once, merges there and sends its tile from there
+    // The graphics card: each swath is read from and written to its buffers alone (Samanta 2000).
+    kGraphics,
+    // Host memory: a server reads all that it drew once, composites there and sends its tile from there.
+    kHost,
 };
 
 // Access to one buffer of a frame buffer: an operation takes `latency_s` and then moves pixels at a rate.

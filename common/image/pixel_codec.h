@@ -15,14 +15,16 @@ namespace swath {
 // Numbers are little-endian, varints have seven bits a byte, the low ones first. docs/wire.md has a worked
 // example.
 //
-//   swath (server to server): depth, f32 a pixel | R, G, B, a byte each a pixel | spans | ids
-//   tile (server to display): R, G, B, a byte each a pixel | spans
+//   swath (server to server)   f32 depth per pixel | u8 R, G, B per pixel | spans | ids
+//   tile (server to display)   u8 R, G, B per pixel | spans
 //
-//   spans: for each row of each rectangle of the region, bottom-up: varint count, then count times (varint
-//   pixels skipped
-//          since the rectangle's left edge or the span before; varint length > 0)
-//   ids:   runs over the pixels in span order: varint length > 0, varint zigzag(id - previous run's id), from
-//   id 0
+//   spans   for each row of each rectangle of the region, bottom-up:
+//             varint count of spans, then for each span
+//               varint pixels skipped since the rectangle's left edge or the span before
+//               varint length > 0
+//   ids     runs over the pixels in the order of spans, for each run
+//             varint length > 0
+//             varint zigzag(id - id of the run before); the first counts from id 0
 //
 // The region itself does not travel: both ends know it from the plan.
 struct BodySizes {

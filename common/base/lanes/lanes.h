@@ -4,15 +4,13 @@
 // in cmake/compile_options.cmake): everything is in an unnamed namespace, so that no other object file can
 // get these copies.
 //
-//   Floats: load, store, all, add, subtract, multiply, divide, fused (a x + t, rounded once), absolute,
-//   lower_of,
-//           higher_of (of numbers that are not NaN), lowest, highest (over the lanes), where; as masks
-//           below_zero, at_least_zero, less, at_most, equal (for NaN none holds)
-//   Words:  load, store, all, add, both (and), shift_left, shift_right, set_bits_where, where, to_floats; as
-//   masks
-//           non_zero, less
-//   packed: writes the lanes of a mask side by side and returns the place after them. It may scribble over
-//           the whole of the next 16 places.
+//   Floats  load, store, all, add, subtract, multiply, divide, fused (a x + t, rounded once), absolute,
+//           lower_of, higher_of (of numbers that are not NaN), lowest, highest (over the lanes), where;
+//           as masks below_zero, at_least_zero, less, at_most, equal (none holds for NaN)
+//   Words   load, store, all, add, both (and), shift_left, shift_right, set_bits_where, where, to_floats;
+//           as masks non_zero, less
+//   packed  writes the lanes of a mask side by side and returns the place after them; it may scribble
+//           over the whole of the next 16 places
 #include <cstdint>
 
 #if defined(SWATH_KERNEL_avx512)

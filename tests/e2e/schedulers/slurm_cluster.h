@@ -8,10 +8,9 @@
 
 namespace swath::test {
 
-// A Slurm cluster on this machine, for whoever runs the test: munged, slurmctld, and a slurmd for each of the
-// nodes n1, n2,
-// ..., all with files, sockets and keys in a folder of the test and on free ports. Every node says that it
-// has four CPUs. Node i is at 127.0.0.i. Ends with the object, jobs included.
+// A Slurm cluster on this machine, run by the test's user: munged, slurmctld, and a slurmd for each of the
+// nodes n1, n2, and so on. Files, sockets and keys are in a folder of the test, ports are free ones. Every
+// node says that it has four CPUs. Node i is at 127.0.0.i. All ends with the object, jobs included.
 class SlurmCluster {
   public:
     // What is not installed, and how to get it; empty when all is there.

@@ -16,8 +16,9 @@ inline Rgb pixel(const Picture& picture, int x, int y) {
     return {picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]};
 }
 
-// 8 x 8 pixels, the left half server 0's, the right half server 1's; server 2 owns nothing and draws in the
-// middle.
+// 8 x 8 pixels. The left half is server 0's, the right half server 1's. Server 2 owns nothing and draws in
+// the middle. Swaths:
+//
 //   0 -> 1: [4, 6) x [0, 8)     1 -> 0: [3, 4) x [2, 6)
 //   2 -> 0: [2, 4) x [3, 5)     2 -> 1: [4, 6) x [3, 5)
 inline FramePlan small_plan() {
