@@ -6,8 +6,8 @@
 
 namespace swath {
 
-// The client's time for a frame, in seconds: boxes to the screen and, unless groups are static (sort-last),
-// the partition. Thread-safe.
+// The client's seconds for a frame: it projects the boxes and, unless groups are static (sort-last),
+// partitions. Thread-safe.
 double client_s(std::size_t objects, std::size_t servers, Algorithm algorithm, const Hardware& hardware);
 
 }  // namespace swath

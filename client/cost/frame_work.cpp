@@ -5,7 +5,8 @@
 namespace swath {
 namespace {
 
-// About what a task takes on the wire (docs/wire.md): view, rectangles and framing, and an id an object.
+// The approximate size of a task on the wire (docs/wire.md): view, rectangles and framing, and an id an
+// object.
 constexpr double kTaskBytes = 300;
 constexpr double kTaskBytesPerObject = 4;
 
@@ -28,7 +29,7 @@ std::vector<ServerWork> frame_work(const FramePlan& plan, std::span<const Projec
         work.display_s = price.display_tile_s(tile);
         work.tile_bytes = price.tile_bytes(tile);
         work.task_bytes = kTaskBytes + kTaskBytesPerObject * static_cast<double>(share.group.size());
-        // As in the cluster, but a server that does not cull also draws what nobody sees.
+        // As in the cluster. But a server that does not cull also draws what nobody sees.
         work.takes_part = !share.content.empty() || work.has_tile || work.render_s > 0;
     }
     for (const Transfer& transfer : transfers(plan)) {

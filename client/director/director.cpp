@@ -65,8 +65,7 @@ bool Director::may_begin() const {
 
 Director::Actions Director::advance() {
     if (over_ || !started_) return {};
-    // A frame is over when it is displayed and every server has reported: only then do all programs forget
-    // it.
+    // A frame is over when it is displayed and every server has reported; then no program remembers it.
     std::erase_if(open_, [](const Open& o) { return o.displayed && o.reports_missing == 0; });
     Actions actions;
     while (may_begin()) {

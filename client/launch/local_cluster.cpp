@@ -13,7 +13,7 @@
 namespace swath {
 namespace bp = boost::process;
 namespace {
-// Programs leave as soon as their lifeline closes; one that is frozen never does, and is killed.
+// A program leaves as soon as its lifeline closes. One that is frozen cannot, and is killed after this.
 constexpr auto kLeavePatience = std::chrono::milliseconds(300);
 }  // namespace
 
@@ -34,7 +34,7 @@ Result<std::unique_ptr<LocalCluster::Child>> LocalCluster::spawn(const std::file
     std::vector<std::string> all{"--listen", "127.0.0.1:0", "--lifeline"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::error_code error;
-    // A child that inherited another's lifeline would keep it alive.
+    // A child that inherited another child's lifeline would keep that child alive.
     for (const int fd : {child->lifeline.pipe().native_source(), child->lifeline.pipe().native_sink(),
                          child->output.pipe().native_source(), child->output.pipe().native_sink()})
         ::fcntl(fd, F_SETFD, FD_CLOEXEC);
@@ -46,7 +46,7 @@ Result<std::unique_ptr<LocalCluster::Child>> LocalCluster::spawn(const std::file
 
 Result<std::unique_ptr<LocalCluster>> LocalCluster::start(const Options& options) {
     std::unique_ptr<LocalCluster> cluster(new LocalCluster);
-    // All are started before any is waited for.
+    // Starts all before it waits for any.
     for (std::size_t i = 0; i <= options.servers; ++i) {
         std::vector<std::string> arguments = options.arguments;
         const auto& own = i > 0 ? options.server_arguments : options.display_arguments;

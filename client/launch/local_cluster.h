@@ -9,18 +9,18 @@
 
 namespace swath {
 
-// A display and servers as child processes on loopback, each on a free port. They end with this object, and
-// with this process however it ends: their stdin is a pipe from us, and they watch it ("lifeline").
+// Runs a display and servers as child processes on loopback, each on a free port. They end with this object,
+// and with this process however it ends: each watches its stdin, a pipe from us ("lifeline").
 class LocalCluster {
   public:
     struct Options {
-        std::filesystem::path programs;  // the folder of swath-server and swath-display
+        std::filesystem::path programs;  // folder of swath-server and swath-display
         std::size_t servers = 1;
         std::vector<std::string> arguments;  // for every program
         std::vector<std::string> server_arguments;
         std::vector<std::string> display_arguments;
     };
-    // Starts all and waits until each has said where it listens. Errors name the program and what it did.
+    // Starts all and waits until each has printed its address. Errors name the program and its fault.
     static Result<std::unique_ptr<LocalCluster>> start(const Options& options);
     ~LocalCluster();
     LocalCluster(const LocalCluster&) = delete;

@@ -8,9 +8,9 @@
 
 namespace swath {
 
-// What the recursive divisions of the screen share: hybrid, and the sort-first ones.
+// Hybrid, MAHD and KD-split divide the screen recursively; these are the parts they share.
 
-// An object on its way down the recursion; [0] is x, [1] is y.
+// An object on its way down the recursion. [0] is x, [1] is y; pixels.
 struct Item {
     int low[2];
     int high[2];
@@ -19,16 +19,18 @@ struct Item {
     bool visible;
 };
 
-// The input's objects in `items`, by id, and a plan whose shares are empty. CHECKs the limits of `input`.
+// Fills `items` with the input's objects by id, and returns a plan whose shares are empty. CHECKs the limits
+// of `input`.
 FramePlan begin_plan(const PartitionInput& input, std::vector<Item>& items);
 
-// One server's part: the tile, and all of the items, whose order is by id. Its content bounds their boxes.
+// One server's share: the tile, and all of the items, which are ordered by id. Its content bounds their
+// boxes.
 ServerShare share_of(std::span<const Item> items, const Rect& tile);
 
 Rect bounds_of(std::span<const ProjectedObject> objects);
 
-// The axis along which a region is longer, x when equal. Not by Rect::width(): of a region without pixels the
-// longer side still says where its tile is long.
+// The longer axis of a region; x when equal. Rect::width() would be 0 for a region without pixels, whose
+// sides still say where its tile is long.
 inline std::size_t longer_axis(const Rect& region) {
     return region.x1 - region.x0 >= region.y1 - region.y0 ? 0 : 1;
 }

@@ -5,10 +5,10 @@
 namespace swath {
 namespace {
 
-// The range of keys per item above which comparing beats counting, since counting looks at every key.
+// Counting looks at every possible key. With more keys per item than this, comparing is faster.
 constexpr std::size_t kSparseKeys = 6;
 
-// Half-way between the lines, halves rounded up, in [low, high].
+// Half-way between the lines, rounded up, in [low, high].
 int cut_between(const SweepLines<int>& lines, int low, int high) {
     return std::clamp((lines.left + lines.right + 1) >> 1, low, high);
 }
@@ -81,7 +81,7 @@ void Hybrid::sort_along(std::span<const Item> items, std::size_t axis) {
     const std::size_t lower_range = static_cast<std::size_t>(low_max - low_min) + 1;
 
     if (std::max(upper_range, lower_range) > kSparseKeys * count) {
-        // Few items far apart: sort key and place packed in one number.
+        // Few items far apart: one number holds key and index, and is sorted.
         keys_.resize(count);
         for (std::size_t i = 0; i < count; ++i) keys_[i] = std::uint64_t{upper_key(items[i])} << 32 | i;
         std::sort(keys_.begin(), keys_.end());

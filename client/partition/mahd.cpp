@@ -14,13 +14,12 @@ constexpr int kLoadBits = 53;
 
 constexpr int kCellPixels = Mahd::kCellPixels;
 
-// The cells that a rectangle of pixels touches.
 Rect cells_of(const Rect& pixels) {
     return {pixels.x0 / kCellPixels, pixels.y0 / kCellPixels, (pixels.x1 - 1) / kCellPixels + 1,
             (pixels.y1 - 1) / kCellPixels + 1};
 }
 
-// Replaces every number of a table by the sum of those left of it, below it, and itself.
+// Makes of every number the sum of all numbers left of and below it, itself included.
 void sum_up(std::vector<std::uint64_t>& table, std::size_t stride) {
     for (std::size_t i = 0; i < table.size(); ++i)
         if (i % stride != 0) table[i] += table[i - 1];
@@ -38,13 +37,13 @@ Rect Mahd::first_region(const PartitionInput& input) {
     for (const ProjectedObject& object : input.objects) work += object.work;
     const int unit = std::max(0, kLoadBits - static_cast<int>(std::bit_width(work)));
 
-    // Each object where its load begins and ends in x and y; summed up once these are the cells' loads, and
-    // twice the sums. Unsigned numbers wrap around and come back.
+    // Each object adds its load where it begins and takes it away where it ends, in x and y. Summed up once,
+    // the table holds the cells' loads; twice, their sums. Unsigned numbers wrap around and come back.
     Rect touched;
     for (const ProjectedObject& object : input.objects) {
         if (object.work == 0) continue;
         const Rect cells = cells_of(object.box);
-        CHECK(!cells.empty());  // an object is at least one pixel
+        CHECK(!cells.empty());  // since an object is at least one pixel
         const std::uint64_t share = (object.work << unit) / static_cast<std::uint64_t>(cells.area());
         const auto at = [&](int x, int y) -> std::uint64_t& {
             return sums_[static_cast<std::size_t>(x + 1) + static_cast<std::size_t>(y + 1) * stride_];

@@ -12,7 +12,7 @@
 
 namespace swath {
 
-// What a frame's partition is decided from. Borrows the objects for the call.
+// All that decides a frame's partition. Borrows the objects for the call.
 struct PartitionInput {
     FrameNumber frame = 0;
     View view;                                 // at least 1x1 pixel
@@ -20,10 +20,10 @@ struct PartitionInput {
     std::size_t servers = 1;                   // 1 to kMaxServers
 };
 
-// A way to divide a frame among servers. The plan is a function of the input (and of the objects that the
-// partitioner was made with) alone: an instance keeps scratch space and static parts, never decisions of an
-// earlier frame. Every plan passes problem() with the algorithm's grouping, whatever the objects; a broken
-// limit of PartitionInput throws CheckFailed. One thread at a time.
+// Divides a frame among servers. The plan is a function of the input and of the objects that the partitioner
+// was made with: an instance keeps scratch space and static parts, never decisions of an earlier frame. Every
+// plan passes problem() with the algorithm's grouping, whatever the objects. A broken limit of PartitionInput
+// throws CheckFailed. One thread at a time.
 class Partitioner {
   public:
     virtual ~Partitioner() = default;
@@ -37,17 +37,17 @@ enum class Algorithm {
     kSortLast,  // groups made once in model space, at pose 0, interleaved tiles (Samanta 2000, section 7.4)
 };
 
-// The one list, in the order in which they are named everywhere.
+// All, in the order in which they are named everywhere.
 std::span<const Algorithm> all_algorithms();
 // "hybrid", "mahd", "kd-split", "sort-last".
 std::string_view name_of(Algorithm algorithm);
-// All names, with commas between.
+// All names, separated by commas.
 std::string algorithm_names();
 Result<Algorithm> parse_algorithm(std::string_view name);
 Grouping grouping_of(Algorithm algorithm);
 
-// A partitioner of this model, for as long as the model lives; copies what it needs of `objects`. Every
-// PartitionInput must have the same objects.
+// Makes a partitioner for this model; copies what it needs of `objects`. Every PartitionInput must have the
+// same objects.
 std::unique_ptr<Partitioner> make_partitioner(Algorithm algorithm, std::span<const Object> objects);
 
 }  // namespace swath

@@ -9,11 +9,11 @@
 namespace swath {
 namespace {
 
-// The pixel of the viewport's border that lies in the direction of a box that cannot be seen.
+// The pixel of the viewport's border in the direction of a box that cannot be seen.
 Rect border_pixel(const Box& box, const View& view) {
     const glm::dvec4 clip =
         glm::dmat4(view.clip_from_model) * glm::dvec4(0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max)), 1.0);
-    // Behind the eye there is no projection, but the side on which the box lies still has a sign.
+    // Behind the eye there is no projection, but the sign still tells the side on which the box lies.
     glm::dvec2 ndc = glm::dvec2(clip) / std::max(std::abs(clip.w), 1e-30);
     const double reach = std::max(std::abs(ndc.x), std::abs(ndc.y));
     if (!(reach > 1e-9 && reach < 1e60)) {

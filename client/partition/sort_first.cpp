@@ -14,7 +14,7 @@ void SortFirst::divide(std::size_t begin, std::size_t end, const Rect& region, c
     if (servers.size() == 1) {
         ServerShare& share = servers.front();
         share = share_of({items_.data() + begin, count}, tile);
-        // The bounds of what of each lies in the tile, since something of each does.
+        // Part of each object lies in the tile, so these are the bounds of those parts.
         share.content = intersect(share.content, tile);
         return;
     }
@@ -24,8 +24,9 @@ void SortFirst::divide(std::size_t begin, std::size_t end, const Rect& region, c
     const Halves regions(region, axis, at);
     const Halves tiles(tile, axis, at);
 
-    // The right side's items go behind all, the left side's close up; both keep their order. Everything is
-    // written and only what belongs there is counted, since whether an item does is hard to predict.
+    // The right side's items go behind all others, the left side's close up; both keep their order. Every
+    // item is written to both, and only the counts say where it belongs: a branch on that would be
+    // mispredicted.
     if (items_.size() < end + count + 1) items_.resize(end + count + 1);
     Item* left = items_.data() + begin;
     Item* right = items_.data() + end;

@@ -10,11 +10,11 @@
 namespace swath {
 namespace {
 
-// The paper does not say; 80 reproduces the message counts of its Table 1.
+// The paper does not give it; 80 reproduces the message counts of its Table 1.
 constexpr int kTilePixels = 80;
 
-// 0..count-1 by ascending key, then number. Keys are gathered first: comparing through two tables is several
-// times slower.
+// The numbers 0..count-1 by ascending key, then number. Keys are gathered first: comparing through two tables
+// is several times slower.
 template <class Key>
 std::vector<ObjectId> ascending(std::size_t count, const Key& key) {
     std::vector<std::pair<float, ObjectId>> keyed(count);
@@ -25,7 +25,7 @@ std::vector<ObjectId> ascending(std::size_t count, const Key& key) {
     return order;
 }
 
-// Interleaved squares; an odd stride of about sqrt(N) a row keeps a server's squares apart.
+// An odd stride of about sqrt(N) a row keeps a server's squares apart.
 void deal_tiles(const View& view, std::span<ServerShare> servers) {
     const auto root = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(servers.size()))));
     const std::size_t stride = root | 1;
@@ -106,7 +106,7 @@ void SortLast::divide(Orders& orders, std::size_t begin, std::size_t end, std::s
     const auto axis = static_cast<std::size_t>(bounds.longest_axis());
     const Split split{objects_, static_cast<glm::length_t>(axis)};
     const SplitServers halves(servers);
-    // Groups only: nothing is cut in model space, so where the lines end does not matter.
+    // Nothing is cut in model space, so the final positions of the lines are not used.
     const SweepLines<float> ends{bounds.min[split.axis], bounds.max[split.axis]};
     sweep(std::span<const ObjectId>(orders.from_left[axis].data() + begin, group.size()),
           std::span<const ObjectId>(orders.from_right[axis].data() + begin, group.size()), split, halves,

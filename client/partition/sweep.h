@@ -5,27 +5,27 @@
 
 namespace swath {
 
-// Which group of a split an item went to.
+// The side of a split to which an item went.
 enum class Side : std::uint8_t { kNone, kLeft, kRight };
 
-// The two sweep lines' positions along the split axis.
+// The positions of the two sweep lines along the split axis.
 template <class Coordinate>
 struct SweepLines {
     Coordinate left;
     Coordinate right;
 };
 
-// How many servers each side of a split is for. Half on the left, rounded down.
+// The number of servers on each side of a split: half on the left, rounded down.
 struct SplitServers {
     std::size_t left;
     std::size_t right;
     explicit SplitServers(std::size_t servers) : left(servers / 2), right(servers - servers / 2) {}
 };
 
-// The two-line sweep that hybrid (on the screen) and sort-last (in the model) share: the side with less work
-// per server, the left one when equal, moves its line across the next item that nobody has, and gets it
-// (Samanta 2000, section 5). `from_left` and `from_right` list the same n items, by upper end ascending and
-// by lower end descending; of each `sides[item]` is kNone and returns the outcome. `lines` start at the
+// The two-line sweep of hybrid (on the screen) and sort-last (in the model). The side with less work per
+// server, the left one when equal, moves its line across the next item that nobody has, and gets it (Samanta
+// 2000, section 5). `from_left` and `from_right` list the same n items, by upper end ascending and by lower
+// end descending. `sides[item]` is kNone for each of them before, and the outcome after. `lines` start at the
 // region's ends. Items answer upper(i), lower(i) and work(i); their work must sum to less than 2^53, so that
 // times kMaxServers it fits in 64 bits. O(n).
 template <class Coordinate, class Items>

@@ -17,7 +17,7 @@ constexpr std::size_t kNumbers = std::tuple_size_v<CameraNumbers>;
 constexpr float kMaxCoordinate = 1e18f;
 constexpr std::string_view kBlank = " \t\r";
 
-// The next word of `line`, which loses it; empty at the end.
+// Cuts the next word off `line`; empty at the end.
 std::string_view next_word(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
     const std::string_view word = line.substr(0, line.find_first_of(kBlank));
@@ -30,7 +30,7 @@ Result<Camera> parse_camera(std::string_view line) {
     std::size_t count = 0;
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++count) {
         if (count >= kNumbers) continue;
-        // Not strtof: a number must mean the same in every locale.
+        // from_chars, unlike strtof, reads a number the same in every locale.
         const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
         float& number = numbers[count];
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
@@ -60,7 +60,7 @@ Result<Camera> camera_of(const CameraNumbers& numbers) {
 
     const glm::dvec3 sight = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
     const glm::dvec3 up(camera.up);
-    // Below this a direction is lost when its squares are summed in single precision.
+    // Below this the direction is lost when its squares are summed in single precision.
     if (glm::length(sight) < 1e-15) return fail("eye and target are the same point");
     if (glm::length(up) < 1e-15) return fail("up is zero");
     if (glm::length(glm::cross(glm::normalize(sight), glm::normalize(up))) < 1e-5)

@@ -13,20 +13,20 @@ namespace {
 
 constexpr float kOrbitFov = 0.6f;          // radians
 constexpr double kOrbitElevation = 0.2;    // radians above the horizon
-constexpr double kOrbitAir = 1.02;         // distance over the closest at which the box fits
-constexpr float kRandomFov = 0.3f;         // radians; this and the next from the notes, section 2
+constexpr double kOrbitAir = 1.02;         // factor on the closest distance at which the box fits
+constexpr float kRandomFov = 0.3f;         // radians; chosen as the next one to reproduce the paper's Table 1
 constexpr double kRandomElevation = 0.65;  // radians, up and down
-constexpr double kNearestOfDiagonal =
-    1e-3;  // smallest near plane; depth keeps 1e-4 of the diagonal or better
+// The smallest near plane; depth keeps 1e-4 of the diagonal or better.
+constexpr double kNearestOfDiagonal = 1e-3;
 constexpr double kDepthAirOfDiagonal = 1e-2;
 
-// From the model to the eye: azimuth 0 looks along -z, up is the model's y.
+// The direction from the model to the eye: azimuth 0 looks along -z, up is the model's y.
 glm::dvec3 direction(double azimuth, double elevation) {
     return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
             std::cos(azimuth) * std::cos(elevation)};
 }
 
-// A length that the model's size gives sense to, also when it is a single point.
+// The model's size as a length above 0, also if it is a single point.
 double diagonal_of(const Box& bounds) {
     const double diagonal = glm::length(glm::dvec3(bounds.max) - glm::dvec3(bounds.min));
     const double reach =
@@ -44,7 +44,7 @@ Camera camera_at(const Box& bounds, const glm::dvec3& towards_eye, double distan
     return with_depth_range(camera, bounds);
 }
 
-// The least distance from the centre, along `towards_eye`, at which the whole box is in the picture.
+// The least distance from the centre along `towards_eye` at which the picture shows the whole box.
 double fitting_distance(const Box& bounds, const glm::dvec3& towards_eye, double tan_x, double tan_y) {
     const glm::dvec3 centre = 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));
     const glm::dvec3 side = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), towards_eye));
@@ -66,7 +66,7 @@ double azimuth_of(std::size_t frame, std::size_t frames) {
 std::vector<Camera> orbit(const Box& bounds, std::size_t frames, const PathOptions& options) {
     const double tan_y = std::tan(0.5 * static_cast<double>(kOrbitFov));
     const double tan_x = tan_y * static_cast<double>(options.aspect);
-    // One distance for all frames, so that the model does not breathe while it turns.
+    // All frames have one distance, so that the model does not breathe while it turns.
     double distance = 0.1 * diagonal_of(bounds);
     for (std::size_t k = 0; k < frames; ++k)
         distance = std::max(
@@ -87,7 +87,7 @@ std::vector<Camera> random(const Box& bounds, std::size_t frames, const PathOpti
                                      static_cast<double>(size.z), 0.1 * diagonal_of(bounds)});
     const double visible_height = longest / static_cast<double>(options.zoom);
     const double distance = 0.5 * visible_height / std::tan(0.5 * static_cast<double>(kRandomFov));
-    // The engine's numbers are the same everywhere; the standard's distributions are not.
+    // The standard fixes the engine's numbers, but not those of its distributions.
     std::mt19937_64 engine(options.seed);
     const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };  // [0, 1)
     std::vector<Camera> cameras;

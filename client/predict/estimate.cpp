@@ -7,7 +7,7 @@
 namespace swath {
 namespace {
 
-// Of an even number the lower one of the middle. Reorders; `values` is not empty.
+// The lower of the two middle ones if their number is even. Reorders; not for an empty range.
 template <class Values>
 double lower_median(Values first, Values last) {
     const auto middle = first + (last - first - 1) / 2;

@@ -6,8 +6,7 @@
 
 namespace swath {
 
-// The median of the last samples. What a scheduler or a neighbour does to a few of them does not show, and
-// what has changed for good shows after half a window.
+// The median of the last samples. A few outliers do not show; a lasting change shows after half a window.
 class RecentMedian {
   public:
     static constexpr std::size_t kWindow = 31;
@@ -22,15 +21,14 @@ class RecentMedian {
     std::size_t next_ = 0;
 };
 
-// What an amount of work takes: something fixed and something for each unit, from measured (amount, time)
-// pairs. Recent ones of about the same amount (within a factor of 1.4) have a common median of each. The
-// newest one's median lies on the line; the others, as long as they are remembered, say how steep it is, by
-// the median of their slopes. While all amounts are about the same there is nothing to tell the parts by, and
-// all is for each unit.
+// The time for an amount of work: a fixed part and a part for each unit, from measured (amount, time) pairs.
+// Recent pairs of about the same amount (within a factor of 1.4) form a class, which has the median of each.
+// The line goes through the newest pair's class; its slope is the median of the slopes from there to the
+// other remembered classes. While all amounts are about the same the parts cannot be told apart, and all of
+// the time counts as for each unit.
 //
-// No part is less than nothing, and at most half of what the newest amount takes is fixed: where servers
-// share cores, half of the work on twice the servers takes as long as before, which does not mean that work
-// is free.
+// No part is negative, and at most half of the newest class's time is fixed: where servers share cores, half
+// the work on twice the servers takes as long as before, which does not make the work free.
 class RecentLine {
   public:
     struct Line {
@@ -43,13 +41,13 @@ class RecentLine {
     std::optional<Line> line() const;  // nothing before the first pair
 
   private:
-    static constexpr std::size_t kMemory = 2000;  // pairs, after which what has not been seen is forgotten
+    static constexpr std::size_t kMemory = 2000;  // pairs; a class without any among the last so many goes
     static constexpr double kMostFixed = 0.5;
-    static constexpr double kApart = 1.5;  // how much amounts differ to say something of the slope
+    static constexpr double kApart = 1.5;  // least ratio of two amounts whose slope counts
     struct Class {
         RecentMedian amount;
         RecentMedian time_s;
-        std::size_t seen = 0;  // the last pair of this class
+        std::size_t seen = 0;  // number of the last pair of this class
     };
     std::map<long, Class> classes_;  // by twice the binary logarithm of the amount
     long newest_ = 0;

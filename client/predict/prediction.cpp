@@ -13,7 +13,7 @@ double MachinePrediction::sum_ms() const { return std::accumulate(ms.begin(), ms
 Prediction predict(const FramePlan& plan, std::span<const ProjectedObject> objects, Algorithm algorithm,
                    std::span<const Object> model, const Hardware& hardware) {
     const std::vector<ServerWork> work = frame_work(plan, objects, hardware);
-    // A card's swaths are read from its buffers, a host's are coded.
+    // A card's swaths are read from its buffers; a host's are coded.
     const bool on_host = hardware.server.compositing == Compositing::kHost;
     const Phase sending = on_host ? Phase::kSwap : Phase::kPixelRead;
 

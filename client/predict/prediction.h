@@ -14,13 +14,12 @@ namespace swath {
 
 struct MachinePrediction {
     std::string name;
-    std::array<double, kPhaseCount> ms{};  // by phase; culling is in kRender, sending a tile in kFinalRead
+    std::array<double, kPhaseCount> ms{};  // culling is in kRender, sending a tile in kFinalRead
     double operator[](Phase phase) const { return ms[static_cast<std::size_t>(phase)]; }
     double sum_ms() const;
 };
 
-// What a frame would take: the work of the cost model, added up. Nobody waits in it, and no picture is
-// encoded.
+// The expected times of a frame: the cost model's work, added up. It has no waiting and no encoding.
 struct Prediction {
     std::vector<MachinePrediction> machines;  // client, servers, display
     double frame_ms = 0;                      // the longest machine's sum: the paper's effective frame
@@ -28,12 +27,11 @@ struct Prediction {
     double swap_pixels = 0;                   // active ones, all servers
 };
 
-// `objects` are those that the plan was made from, `model` the same as the model has them. Thread-safe.
+// `objects` are those that the plan was made from; `model` are the same unprojected. Thread-safe.
 Prediction predict(const FramePlan& plan, std::span<const ProjectedObject> objects, Algorithm algorithm,
                    std::span<const Object> model, const Hardware& hardware);
 
-// An algorithm and the model's partitioner of it, which the caller keeps: it has scratch space and,
-// sort-last, groups made once.
+// The caller keeps the partitioner, which has scratch space and, for sort-last, groups made once.
 struct Contender {
     Algorithm algorithm = Algorithm::kHybrid;
     Partitioner* partitioner = nullptr;
@@ -44,8 +42,8 @@ struct Comparison {
     Prediction prediction;
 };
 
-// What each contender would make of the same view, as many servers and objects. Nothing while the rates are
-// not known. Runs every partitioner once: with 1500 objects and 8 servers well under 5 ms.
+// Predicts every contender's plan for the same view, objects and number of servers. Empty while the rates are
+// not known. Runs every partitioner once: well under 5 ms with 1500 objects and 8 servers.
 std::vector<Comparison> compare(const PartitionInput& input, std::span<const Object> model,
                                 std::span<const Contender> contenders, const Rates& rates);
 

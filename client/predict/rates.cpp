@@ -7,11 +7,11 @@
 namespace swath {
 namespace {
 
-// A partition's step for a level of log2(servers), over an object's way to the screen, as in gbe-2026.
+// Time to partition, per object and log2(servers), over the time to project an object; as in gbe-2026.
 constexpr double kLevelOverTransform = 11.0 / 45.0;
 
-// Until swaths have been seen. Times are over that of gathering a tile's pixel, as measured with four
-// servers; sizes and the share as in gbe-2026.
+// These stand in until swaths have been seen. Times are relative to gathering a pixel of a tile, as measured
+// with four servers; sizes and the share as in gbe-2026.
 constexpr double kCodeOverGather = 10;
 constexpr double kMergeOverGather = 5;
 constexpr double kSwathBytes = 7.46;
@@ -20,7 +20,7 @@ constexpr double kSwathShare = 0.3;
 
 Hardware::Client client_of(double transform_s) { return {transform_s, 0, transform_s * kLevelOverTransform}; }
 
-// What machines of one kind did in a frame, together.
+// Adds up the spans and counters of all machines of one kind.
 struct Sum {
     std::array<double, kPhaseCount> s{};
     std::array<double, kCounterCount> counted{};
@@ -65,7 +65,7 @@ void Rates::add(const FramePlan& plan, const FrameTimeline& timeline, Algorithm 
         tiles += static_cast<double>(area(final_region(plan, server_id(s))));
     }
     for (const Transfer& transfer : transfers(plan)) swaths += static_cast<double>(area(transfer.region));
-    if (drawing == 0) return;  // a picture of nothing
+    if (drawing == 0) return;  // the picture is empty
 
     if (servers[Counter::kTriangles] > 0)
         render_.add(servers[Counter::kTriangles] / drawing,

@@ -9,8 +9,8 @@
 
 namespace swath {
 
-// Keeps a run's pictures as DIR/frame_0000.png and so on; each file is whole or not there. Without a folder
-// it keeps none.
+// Writes a run's pictures to FOLDER/frame_0000.png and so on; each file is whole or absent. Without a folder
+// it writes none.
 class PictureWriter {
   public:
     PictureWriter(std::filesystem::path folder, PictureFormat format)

@@ -14,14 +14,14 @@
 
 namespace swath {
 
-// The reference: every frame drawn whole by one renderer in this process, without plan or network. Every
-// cluster picture equals these byte for byte. Blocking.
+// The reference: one renderer in this process draws every frame whole, without plan or network. Every picture
+// of a cluster equals these byte for byte. Blocking.
 struct SingleJob {
     const ObjectSet* scene = nullptr;
-    RendererSetup renderer;  // its threads cull, too
+    RendererSetup renderer;  // its threads also cull
     CullAlgorithm cull = CullAlgorithm::kWide;
     std::vector<Camera> cameras;
-    std::optional<float> pose = 0;      // of all frames; none: path_pose() of each
+    std::optional<float> pose = 0;      // of all frames; none: path_pose() of each frame
     std::optional<glm::vec3> to_light;  // unit, model space; none: a head-light
     int width = 1280;
     int height = 960;
