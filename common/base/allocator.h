@@ -2,8 +2,8 @@
 
 namespace swath {
 
-// Frames take and give large blocks: this keeps glibc from returning them to the system in between, which
-// costs llvmpipe a quarter of its time. Call once at the start of main, before threads and contexts.
+// Keeps glibc from returning large blocks to the system between frames, which costs llvmpipe a quarter of its
+// time. Call it once at the start of main, before threads and contexts exist.
 void tune_allocator();
 
 }  // namespace swath

@@ -8,9 +8,9 @@
 
 namespace swath {
 
-// A block of bytes that grows without being zeroed and keeps its capacity when it is reused. Movable, not
-// copied: pixel bodies are megabytes. A buffer that was moved from is empty and can be used again. One thread
-// at a time.
+// A block of bytes that grows without being zeroed and keeps its capacity when it is reused. It moves and is
+// not copied: pixel bodies are megabytes. A buffer that was moved from is empty and can be used again. One
+// thread at a time.
 class Buffer {
   public:
     Buffer() = default;
@@ -33,12 +33,12 @@ class Buffer {
     bool empty() const { return size_ == 0; }
     std::span<const std::uint8_t> bytes() const { return {data_.get(), size_}; }
 
-    // The contents up to the smaller size survive; what is new is uninitialised.
+    // Bytes up to the smaller size survive, new ones are uninitialised.
     void resize(std::size_t size) {
         if (size > capacity_) grow(size);
         size_ = size;
     }
-    // `from` lies outside of this buffer, which may move.
+    // `from` must lie outside of this buffer, because growing moves it.
     void append(const void* from, std::size_t count) {
         if (count == 0) return;
         const std::size_t at = size_;

@@ -31,7 +31,7 @@ void print(std::ostream& out, const T& value) {
     }
 }
 
-// The outcome of a comparison together with the text of both sides (made only when it failed).
+// The outcome of a comparison, and both sides as text if it failed.
 struct Outcome {
     bool ok;
     std::string values;
@@ -61,7 +61,7 @@ struct Left {
     operator Outcome() const { return {static_cast<bool>(left), "false"}; }
 };
 
-// <=> binds tighter than every comparison and looser than arithmetic and shifts: it takes just the left side.
+// <=> binds tighter than every comparison and looser than arithmetic and shifts, so it takes the left side.
 struct Start {
     template <class L>
     Left<L> operator<=>(const L& left) const {
@@ -72,8 +72,8 @@ struct Start {
 }  // namespace check_detail
 }  // namespace swath
 
-// CHECK(a == b): stays on in release builds; on failure throws CheckFailed naming both values. One comparison
-// or one value that converts to bool; of two conditions make two CHECKs.
+// CHECK(a == b) throws CheckFailed, which names both values, if it does not hold. It stays on in release
+// builds. It takes one comparison or one value that converts to bool: write two CHECKs for two conditions.
 #define CHECK(expression)                                                                               \
     do {                                                                                                \
         const ::swath::check_detail::Outcome swath_check_outcome =                                      \

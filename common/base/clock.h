@@ -4,18 +4,17 @@
 
 namespace swath {
 
-// Points on a machine's monotonic clock and lengths of time. What programs exchange and record is in
-// nanoseconds.
+// The unit of time that programs record and exchange: points on a machine's monotonic clock, and lengths.
 using Nanoseconds = std::chrono::nanoseconds;
 
-// Where time comes from. `main` makes a SteadyClock; tests and the simulator bring their own.
-// Thread-safe implementations only: any thread may ask.
+// Tells the time. `main` makes a SteadyClock; tests and the simulator bring their own. Implementations are
+// thread-safe.
 class Clock {
   public:
     virtual ~Clock() = default;
-    // Since an arbitrary fixed point of this machine; never goes back.
+    // The time since a fixed point of this machine. It never goes back.
     virtual Nanoseconds now() const = 0;
-    // CPU time spent by the calling thread.
+    // The CPU time that the calling thread has spent.
     virtual Nanoseconds thread_cpu() const = 0;
 };
 

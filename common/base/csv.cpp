@@ -7,7 +7,6 @@ namespace {
 
 constexpr std::size_t kShownCharacters = 80;  // of a line in an error
 
-// Reads one record after the other.
 class Reader {
   public:
     Reader(std::string_view text, std::size_t first_line) : text_(text), line_(first_line) {}

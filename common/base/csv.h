@@ -8,18 +8,18 @@
 
 namespace swath {
 
-// The text as a field of a table with commas (RFC 4180): quoted where it has to be.
+// The text as a field of a comma-separated table (RFC 4180), quoted where it must be.
 std::string csv_field(std::string_view text);
 
 struct CsvRecord {
-    std::size_t line = 0;  // that it begins on, from 1
+    std::size_t line = 0;  // the first of the record, from 1
     std::vector<std::string> fields;
     bool operator==(const CsvRecord&) const = default;
 };
 
-// The header and the records of a table, each with as many fields as the header. Lines end with \n or \r\n,
-// the last one too: a file that was cut off is an error, like quotes that RFC 4180 does not allow. Errors
-// name the source and the line; the header is on line `first_line` of the source.
+// Reads a table: its header, which must be `header`, then records with as many fields. Lines end with \n or
+// \r\n, the last one too, so that a file that was cut off is an error, like quotes that RFC 4180 does not
+// allow. Errors name `source` and the line; the header is on line `first_line`.
 Result<std::vector<CsvRecord>> parse_csv(std::string_view text, std::string_view header,
                                          std::string_view source, std::size_t first_line = 1);
 

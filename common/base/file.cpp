@@ -25,7 +25,7 @@ struct Descriptor {
 }  // namespace
 
 Result<Buffer> read_file(const std::filesystem::path& path, std::uint64_t limit) {
-    // O_NONBLOCK: opening a pipe must not wait for somebody to write into it. Regular files ignore it.
+    // With O_NONBLOCK, opening a pipe does not wait for a writer. Regular files ignore it.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.fd < 0) return fail("{}: {}", path.string(), std::strerror(errno));
     struct stat status {};

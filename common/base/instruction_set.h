@@ -4,7 +4,7 @@
 
 namespace swath {
 
-// Which vector instructions a kernel was compiled for (see swath_kernel in cmake/compile_options.cmake). All
+// The vector instructions that a kernel is compiled for (swath_kernel in cmake/compile_options.cmake). All
 // give the same bits; they differ in speed.
 enum class InstructionSet {
     kPortable,  // any processor
@@ -12,7 +12,7 @@ enum class InstructionSet {
     kAvx512,    // F, DQ, BW, VL
 };
 
-// Those that this processor and this build have, slowest first; kPortable is always the first.
+// The sets that this processor has, slowest first; kPortable is always the first.
 std::span<const InstructionSet> instruction_sets();
 inline InstructionSet best_instruction_set() { return instruction_sets().back(); }
 std::string_view name(InstructionSet set);  // "portable", "avx2", "avx512"

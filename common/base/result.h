@@ -8,15 +8,13 @@
 
 namespace swath {
 
-// What went wrong, as one line a person can act on: it names the thing (file, flag, peer, field) and the
-// limit.
+// One line that a person can act on: it names the thing (file, flag, peer, field) and the limit.
 struct Error {
     std::string message;
     bool operator==(const Error&) const = default;
 };
 
-// A value or an Error. Everything that a file, a peer or a user can get wrong is reported this way; nothing
-// of theirs is ever asserted.
+// A value or an Error. What a file, a peer or a user gets wrong is reported this way and never asserted.
 template <class T>
 using Result = tl::expected<T, Error>;
 using Status = tl::expected<void, Error>;

@@ -7,7 +7,7 @@ namespace {
 
 // Waking a member takes some 10 µs, more on a busy machine.
 constexpr double kWorthAMemberNs = 25'000;
-constexpr std::uint32_t kShortest = 32;  // frames
+constexpr std::uint32_t kShortest = 32;  // interval between trials, in frames
 constexpr std::uint32_t kLongest = 1024;
 
 }  // namespace
@@ -29,7 +29,7 @@ std::size_t Sharing::members(double expected_ns) {
     if (alone_.known()) {
         sharing_ = !shared_.known() || shared_pays();
         if (shared_.known() && ++since_ > interval_) {
-            // One frame tells whether it is worth a second.
+            // Try the other way for this frame. If it does not win, the next trial is twice as far away.
             since_ = 0;
             interval_ = std::clamp(2 * interval_, kShortest, kLongest);
             sharing_ = !sharing_;

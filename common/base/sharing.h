@@ -13,28 +13,28 @@ enum class SharingMode {
     kAlways,      // the whole team in every frame: for tests and measurements
 };
 
-// Decides, frame by frame, whether a cull is shared out among a team's members or done by the caller alone.
-// Small frames are not: waking somebody takes longer. Of larger ones it measures which way is quicker and
-// takes that, and tries the other way again from time to time, ever more rarely while it does not pay. So a
-// machine whose cores are taken, where members would begin and then stand still, costs next to nothing.
+// Decides for each frame whether a team shares a cull or the caller does it alone. Small frames are never
+// shared: waking a member takes longer. For larger ones it measures which way is quicker, takes that, and
+// tries the other way from time to time, ever more rarely while it does not pay. So a team costs next to
+// nothing on a machine whose cores are taken, where members would begin and then stand still.
 //
-// Frames are measured in expected work: the nanoseconds that one undisturbed thread would take, about.
+// A frame's work is expected in nanoseconds: about what one undisturbed thread would take.
 class Sharing {
   public:
     Sharing(const ThreadTeam& team, SharingMode mode) : team_(team), mode_(mode) {}
 
-    // How many members should do a frame of `expected_ns`, 1 or more; begins to measure it.
+    // How many members should do a frame of `expected_ns`, 1 or more. Begins to measure the frame.
     std::size_t members(double expected_ns);
-    // The frame is done, and was `work_ns`.
+    // Call it when the frame is done. `work_ns` is the work that it turned out to be.
     void done(double work_ns);
 
   private:
-    // Time taken over work: the median of the last few frames, since on a busy machine every third may be
+    // Time taken per work: the median of the last few frames, because on a busy machine every third may be
     // interrupted.
     class Rate {
       public:
         bool known() const { return count_ > 0; }
-        double value() const;  // once known
+        double value() const;  // needs known()
         void add(double sample) { samples_[count_++ % samples_.size()] = sample; }
         void forget() { count_ = 0; }
 
@@ -49,8 +49,8 @@ class Sharing {
     Rate alone_;
     Rate shared_;
     bool sharing_ = false;
-    bool paid_ = false;           // sharing did, as of the last frame
-    bool counts_ = false;         // the frame is large enough to learn from
+    bool paid_ = false;           // whether sharing paid as of the last frame
+    bool counts_ = false;         // whether the frame is large enough to learn from
     std::uint32_t interval_ = 0;  // frames until the other way is tried
     std::uint32_t since_ = 0;
     Nanoseconds begin_{0};

@@ -7,9 +7,9 @@
 namespace swath {
 namespace {
 
-// A wait that ends soon should not pay for a system call, and one that does not should leave the core to
-// others. Spinning alone lost up to four times when there were more threads than cores, sleeping at once
-// cost milliseconds a frame on a busy machine.
+// A short wait should not pay for a system call, and a long one should leave the core to others. With more
+// threads than cores, spinning alone was up to four times slower; sleeping at once cost milliseconds a frame
+// on a busy machine.
 constexpr int kSpins = 200;
 constexpr int kYields = 50;
 
@@ -19,7 +19,7 @@ void pause() {
 #endif
 }
 
-// Returns the first value of `state` that is not `while_is`.
+// Blocks until `state` is not `while_is` and returns what it is.
 std::uint32_t await_change(const std::atomic<std::uint32_t>& state, std::uint32_t while_is) {
     for (int i = 0; i < kSpins + kYields; ++i) {
         if (const std::uint32_t now = state.load(std::memory_order_acquire); now != while_is) return now;
@@ -32,9 +32,9 @@ std::uint32_t await_change(const std::atomic<std::uint32_t>& state, std::uint32_
     return state.load(std::memory_order_acquire);
 }
 
-// Stores what a sleeper waits for and wakes it. The store must be sequentially consistent: libstdc++ asks
-// whether anybody sleeps before it makes the system call, and with a mere release the answer could be older
-// than the store is visible, which would lose the wake-up.
+// Stores a value and wakes who waits for it. The store must be sequentially consistent: libstdc++ looks
+// whether anybody sleeps before it makes the system call, and after a mere release it could look before the
+// store is visible, and so lose the wake-up.
 void announce(std::atomic<std::uint32_t>& state, std::uint32_t value) {
     state.store(value, std::memory_order_seq_cst);
     state.notify_all();
@@ -49,7 +49,7 @@ ThreadTeam::ThreadTeam(std::size_t size, const Clock& clock) : clock_(clock) {
         for (std::size_t i = 1; i < size; ++i)
             members_[i]->thread = std::thread([this, &member = *members_[i]] { live(member); });
     } catch (const std::exception&) {
-        // Then there are fewer threads: wait() takes what nobody begins.
+        // With fewer threads, wait() does the tasks of members that have none.
     }
 }
 
@@ -69,7 +69,7 @@ void ThreadTeam::live(Member& member) {
             case kStarted:
                 take(member);
                 break;
-            default:  // the caller took it back and is doing it
+            default:  // the caller is doing this member's task itself
                 await_change(member.state, kRunning);
         }
     }

@@ -7,8 +7,8 @@
 
 namespace swath {
 
-// One thread that runs tasks in the order they were posted. Any thread may post. Destroying it drops what has
-// not begun and waits for what has. Tasks must not throw.
+// A thread that does tasks in the order in which they are posted. Any thread may post. The destructor drops
+// tasks that have not begun and waits for the one that has. Tasks must not throw.
 class WorkerThread {
   public:
     WorkerThread();

@@ -5,13 +5,14 @@
 namespace swath {
 namespace {
 
-// A point's place at p is (1 - p) x + p (x + m), and with u = 2^-24 half a unit in the last place of 1,
-// - `end` is around the rounded x + m, which is off by u |e| at most, e being its place there;
-// - the product p m is off by u |p m|, and |m| by no more than u more than |x| + |e|;
-// - the sum is off by u times itself, which is no larger than |x| + |e| and the error of the product.
-// Together that is below 3 u (|x| + |e|) and what is of the order of u squared. Where numbers have no full
-// precision any more, or machines make zeros of them, two operands and two results are off by the smallest
-// that has, at most.
+// What box_at() must add. Let a point be at x at pose 0, move by m, and be at e = x + m at pose 1. At pose p
+// it is at (1 - p) x + p e. With u = 2^-24, half a unit in the last place of 1:
+// - `end` contains the rounded e, which is off by at most u |e|;
+// - the product p m is off by at most u |p m|, where |m| is below (1 + u) (|x| + |e|);
+// - the sum is off by at most u times itself, and it is below |x| + |e| plus the product's error.
+// All of it is below 3 u (|x| + |e|) plus terms of order u^2, which the fourth u covers. Denormal numbers,
+// which some machines flush to zero, put two operands and two results off by at most the smallest normal
+// number each: kTiniest.
 constexpr double kLoss = 4 * 0x1p-24;
 constexpr double kTiniest = 4 * double{std::numeric_limits<float>::min()};
 
@@ -33,7 +34,7 @@ Box box_at(const Box& start, const Box& end, float pose) {
         };
         const double loss = kLoss * (magnitude(start) + magnitude(end)) + kTiniest;
         const auto between = [p](float from, float to) { return (1 - p) * from + p * to; };
-        // Nothing leaves what is between its two ends: rounding is monotone.
+        // No point leaves the range between its two ends, since rounding is monotone.
         box.min[axis] = std::max(round_down(between(start.min[axis], end.min[axis]) - loss),
                                  std::min(start.min[axis], end.min[axis]));
         box.max[axis] = std::min(-round_down(-between(start.max[axis], end.max[axis]) - loss),

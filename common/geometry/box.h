@@ -32,12 +32,12 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-// At `pose`, from 0 to 1, the box around points that move along straight lines: `start` is around all of them
-// at pose 0 and `end` around all at pose 1, or empty where nothing moves, which gives `start` at any pose. No
-// point at + pose * motion is ever outside, rounded to single precision, in one step or in two; coordinates
-// must be far enough from the largest float (kMaxCoordinate of a mesh is). A little larger than need be but
-// at 0 and 1, and never larger than the box around both. Monotone: a box around others at both ends is around
-// them at every pose.
+// The box at `pose`, 0 to 1, around points that move along straight lines. `start` contains all points at
+// pose 0, `end` at pose 1; an empty `end` means that nothing moves and gives `start`.
+// - It contains every point at + pose * motion, computed in single precision with one rounding or with two.
+//   Coordinates must be far from the largest float, as kMaxCoordinate of a mesh is.
+// - It is exact at 0 and 1, slightly too large in between, and never larger than the box around both ends.
+// - It is monotone: a box that contains others at both ends contains them at every pose.
 Box box_at(const Box& start, const Box& end, float pose);
 
 }  // namespace swath

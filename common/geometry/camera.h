@@ -5,7 +5,7 @@
 
 namespace swath {
 
-// Where a person looks from: lengths in the model's units, the angle in radians.
+// What a person looks from and at. Lengths are in the model's units, the angle in radians.
 struct Camera {
     glm::vec3 eye{0, 0, 1};
     glm::vec3 target{0, 0, 0};
@@ -16,14 +16,14 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-// A camera with a viewport, reduced to what rendering needs. The client makes it and sends the numbers
-// themselves, so that every machine projects with the same bits whatever its math library.
+// A camera and viewport, reduced to what rendering needs. The client makes it and sends these numbers, so
+// that every machine projects with the same bits whatever its math library.
 struct View {
     glm::mat4 clip_from_model{1.0f};  // column-major, OpenGL clip space (z from -w to w)
-    glm::vec3 to_light{0, 0, 1};      // unit, model space; a head-light
+    glm::vec3 to_light{0, 0, 1};      // unit vector in model space; the light is at the eye
     int width = 0;                    // pixels
     int height = 0;
-    float pose = 0;  // of a model that moves, 0 to 1 (see Mesh)
+    float pose = 0;  // of a moving model, 0 to 1 (see Mesh)
     Rect viewport() const { return {0, 0, width, height}; }
     bool operator==(const View&) const = default;
 };

@@ -5,14 +5,14 @@
 namespace swath {
 namespace {
 
-// What single precision may lose of a clip coordinate, relative to the sum of its terms' magnitudes: the
+// How much of a clip coordinate single precision may lose, relative to the sum of its terms' magnitudes: the
 // renderer's 4 products and 3 sums lose at most 2.4e-7, clipping as much again.
 constexpr double kFloatLoss = 1e-6;
-// A pixel is drawn when its centre is covered, so an error below half a pixel (less the rasteriser's
-// snapping) cannot reach the next one.
+// A pixel is drawn if its centre is covered, so an error below half a pixel, less the rasteriser's snapping,
+// cannot reach the next one.
 constexpr double kHarmlessPixels = 0.25;
 
-// Of a box's eight corners, one number each. In arrays and halved in steps so that the compiler makes
+// One number for each of a box's eight corners. Arrays, and minima in halving steps, let the compiler make
 // vectors.
 using Eight = std::array<double, 8>;
 
@@ -63,7 +63,7 @@ struct Extent {
     }
 };
 
-// Of all corners, without branches: nearly every box is in front of the eye.
+// The extent of all corners. It has no branches, because nearly every box is in front of the eye.
 Extent extent_of(const Corners& corners) {
     Eight x, y;
     for (std::size_t k = 0; k < 8; ++k) {
@@ -94,7 +94,7 @@ Frustum make_frustum(const View& view) {
 Frustum make_frustum(const View& view, const Rect& rect, const Box& within) {
     const glm::dmat4 rows = glm::transpose(glm::dmat4(view.clip_from_model));
     const glm::dvec3 reach = glm::max(glm::abs(glm::dvec3(within.min)), glm::abs(glm::dvec3(within.max)));
-    // sign * (row - limit * w) >= 0, and a little beyond.
+    // sign * (row - limit * w) >= 0, moved outwards by kFloatLoss.
     const auto plane = [&](glm::length_t row, double limit, double sign) {
         glm::dvec4 p = sign * (rows[row] - limit * rows[3]);
         const glm::dvec4 terms = glm::abs(rows[row]) + std::abs(limit) * glm::abs(rows[3]);
@@ -124,7 +124,8 @@ Rect ScreenBounds::of(const Box& box) const {
     const double depth_loss = loss.z + loss.w;
     const Corners corners = project_corners(matrix_, low_corner, high_corner - low_corner);
 
-    // How far inside the near plane, or as good as inside when computed in single precision.
+    // inside[k] >= 0: corner k is inside of the near plane, or can be when computed in single precision.
+    // beyond[k] > depth_loss: it is beyond the far plane in any case.
     Eight inside;
     Eight beyond;
     for (std::size_t k = 0; k < 8; ++k) {
@@ -146,7 +147,7 @@ Rect ScreenBounds::of(const Box& box) const {
                        std::lerp(corners.w[k], corners.w[m], t));
         }
     }
-    // The near plane cannot be told from the eye: the box may show anywhere.
+    // The near plane cannot be told from the eye, so the box may show anywhere.
     if (!(extent.nearest_w > loss.w)) return viewport_;
 
     const double crossing = crosses ? 1.0 : 0.0;

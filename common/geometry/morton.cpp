@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCells = 1 << kMortonDepth;  // an axis
 
-// Spreads the low ten bits: bit i goes to bit 3 i.
+// Moves bit i of the low ten bits to bit 3 i.
 std::uint32_t spread(std::uint32_t bits) {
     bits &= 0x3ff;
     bits = (bits | bits << 16) & 0x030000ff;
@@ -44,7 +44,7 @@ std::uint32_t morton_code(const glm::dvec3& point, const glm::dvec3& min, const 
 }
 
 void sort_by_code(std::vector<MortonKey>& keys, int bits) {
-    // Least significant digit first.
+    // A radix sort, least significant digit first.
     constexpr int kDigitBits = 10;
     constexpr std::uint32_t kMask = (1u << kDigitBits) - 1;
     std::vector<MortonKey> other(keys.size());

@@ -7,8 +7,8 @@
 
 namespace swath {
 
-// A rectangle of pixels, [x0, x1) by [y0, y1), origin at the lower left as in OpenGL. Any rectangle without
-// pixels is empty; all empty ones mean the same.
+// A rectangle of pixels, [x0, x1) by [y0, y1), with the origin at the lower left as in OpenGL. All rectangles
+// without pixels mean the same.
 struct Rect {
     int x0 = 0;
     int y0 = 0;
@@ -41,7 +41,7 @@ inline Rect bounding(const Rect& a, const Rect& b) {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-// What of `a` lies outside `b`: at most four rectangles that do not overlap.
+// The part of `a` outside of `b`, as at most four rectangles that do not overlap.
 inline std::vector<Rect> subtract(const Rect& a, const Rect& b) {
     const Rect hole = intersect(a, b);
     if (hole.empty()) return a.empty() ? std::vector<Rect>{} : std::vector<Rect>{a};
@@ -53,7 +53,7 @@ inline std::vector<Rect> subtract(const Rect& a, const Rect& b) {
     return rest;
 }
 
-// Several rectangles that do not overlap.
+// Rectangles that do not overlap.
 using Region = std::vector<Rect>;
 
 inline std::int64_t area(const Region& region) {

@@ -1,8 +1,8 @@
 #pragma once
-// Sixteen numbers at once, in the instruction set that the kernel including this is compiled for: Floats and
-// Words (32 bits, unsigned), and masks with a bit per lane, lane 0 lowest. Only for kernels (see swath_kernel
-// in cmake/compile_options.cmake): everything is in an unnamed namespace, so that no other object file can
-// get these copies.
+// Sixteen numbers at once, in the instruction set that the including kernel is compiled for: Floats, Words
+// (32 bits, unsigned) and masks, which have one bit per lane, lane 0 lowest. Only kernels may include this
+// (swath_kernel in cmake/compile_options.cmake). All of it is in an unnamed namespace, so that the linker
+// never gives another object file code that its processor may not have.
 //
 //   Floats  load, store, all, add, subtract, multiply, divide, fused (a x + t, rounded once), absolute,
 //           lower_of, higher_of (of numbers that are not NaN), lowest, highest (over the lanes), where;

@@ -1,5 +1,5 @@
 #pragma once
-// See lanes.h. Two registers for sixteen lanes.
+// See lanes.h. Two registers hold the sixteen lanes.
 #include <immintrin.h>
 
 #include <cstdint>
@@ -97,7 +97,7 @@ inline void store(float* to, Floats a) {
     _mm256_storeu_ps(to, a.low);
     _mm256_storeu_ps(to + 8, a.high);
 }
-// The first in lanes 0 to 7, the second in lanes 8 to 15.
+// Puts `first` into lanes 0 to 7 and `second` into lanes 8 to 15.
 inline Words halves(std::uint32_t first, std::uint32_t second) {
     return {_mm256_set1_epi32(static_cast<int>(first)), _mm256_set1_epi32(static_cast<int>(second))};
 }
@@ -122,7 +122,7 @@ inline Words set_bits_where(Words a, std::uint32_t mask, std::uint32_t bits) {
             _mm256_or_si256(a.high, _mm256_and_si256(from_bits(mask >> 8), set))};
 }
 inline std::uint32_t less(Words a, Words b) {
-    // There is a signed comparison only.
+    // AVX2 compares signed numbers only.
     const __m256i half = _mm256_set1_epi32(static_cast<int>(0x80000000u));
     const auto of = [&](__m256i x, __m256i y) {
         return _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_xor_si256(y, half), _mm256_xor_si256(x, half)));
@@ -142,7 +142,7 @@ inline std::uint32_t non_zero(Words a) {
 inline Floats to_floats(Words a) { return {_mm256_cvtepi32_ps(a.low), _mm256_cvtepi32_ps(a.high)}; }
 
 inline std::uint32_t* packed_half(std::uint32_t* out, __m256i a, std::uint32_t mask) {
-    // The numbers of the set bits, a byte each.
+    // `lanes` lists the numbers of the set bits, one byte each.
     const std::uint64_t bytes = _pdep_u64(mask, 0x0101010101010101) * 0xff;
     const std::uint64_t lanes = _pext_u64(0x0706050403020100, bytes);
     const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(lanes)));
@@ -152,7 +152,7 @@ inline std::uint32_t* packed_half(std::uint32_t* out, __m256i a, std::uint32_t m
 inline std::uint32_t* packed(std::uint32_t* out, Words a, std::uint32_t mask) {
     return packed_half(packed_half(out, a.low, mask & 0xff), a.high, mask >> 8);
 }
-// The same of lanes 0 to 7 alone: no more than the next 8 places.
+// store and packed of lanes 0 to 7 alone. They write no more than the next 8 places.
 inline void store8(std::uint32_t* to, Words a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), a.low); }
 inline std::uint32_t* packed8(std::uint32_t* out, Words a, std::uint32_t mask) {
     return packed_half(out, a.low, mask);

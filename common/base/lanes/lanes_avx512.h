@@ -1,8 +1,8 @@
 #pragma once
-// See lanes.h. One register for sixteen lanes.
+// See lanes.h. One register holds the sixteen lanes.
 #include <cstdint>
 
-// GCC 12 takes the deliberately undefined registers of its own header for mistakes.
+// GCC 12 warns about registers that its own header leaves undefined on purpose.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
@@ -70,19 +70,19 @@ inline Words where(std::uint32_t mask, Words then, Words otherwise) {
 }
 inline std::uint32_t non_zero(Words a) { return _mm512_test_epi32_mask(a.v, a.v); }
 inline Floats to_floats(Words a) { return {_mm512_cvtepi32_ps(a.v)}; }
-// The first in lanes 0 to 7, the second in lanes 8 to 15.
+// Puts `first` into lanes 0 to 7 and `second` into lanes 8 to 15.
 inline Words halves(std::uint32_t first, std::uint32_t second) {
     const __m512i low = _mm512_set1_epi32(static_cast<int>(first));
     return {_mm512_mask_set1_epi32(low, 0xff00, static_cast<int>(second))};
 }
 
 inline std::uint32_t* packed(std::uint32_t* out, Words a, std::uint32_t mask) {
-    // In a register first: compressing straight into memory is many times slower on some processors.
+    // Compressing into a register first is many times faster on some processors than straight into memory.
     _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), a.v));
     return out + __builtin_popcount(mask);
 }
 
-// The same of lanes 0 to 7 alone: no more than the next 8 places.
+// store and packed of lanes 0 to 7 alone. They write no more than the next 8 places.
 inline void store8(std::uint32_t* to, Words a) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_castsi512_si256(a.v));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// See lanes.h. Plain arrays, for the compiler to make of them what it can.
+// See lanes.h. Plain arrays, which the compiler vectorises as it can.
 #include <cstdint>
 
 namespace swath::SWATH_KERNEL {
@@ -12,7 +12,7 @@ struct Words {
     std::uint32_t v[16];
 };
 
-// One lane at a time: of(i) is lane i.
+// These make a value of one lane at a time: of(i) is lane i.
 template <class Of>
 inline Floats make_floats(Of of) {
     Floats result;
@@ -100,7 +100,7 @@ inline void store(std::uint32_t* to, const Words& a) {
 inline void store(float* to, const Floats& a) {
     for (int i = 0; i < 16; ++i) to[i] = a.v[i];
 }
-// The first in lanes 0 to 7, the second in lanes 8 to 15.
+// Puts `first` into lanes 0 to 7 and `second` into lanes 8 to 15.
 inline Words halves(std::uint32_t first, std::uint32_t second) {
     return make_words([=](int i) { return i < 8 ? first : second; });
 }
@@ -140,7 +140,7 @@ inline std::uint32_t* packed(std::uint32_t* out, const Words& a, std::uint32_t m
     return out;
 }
 
-// The same of lanes 0 to 7 alone: no more than the next 8 places.
+// store and packed of lanes 0 to 7 alone. They write no more than the next 8 places.
 inline void store8(std::uint32_t* to, const Words& a) {
     for (int i = 0; i < 8; ++i) to[i] = a.v[i];
 }
