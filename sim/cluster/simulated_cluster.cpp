@@ -23,7 +23,7 @@
 namespace swath::sim {
 namespace {
 
-// Reports carry a few spans and counters; the display's task a rectangle a tile.
+// A report has a few spans and counters; the display's task has a rectangle a tile.
 constexpr double kReportBytes = 300;
 constexpr double kAssembleBytesPerServer = 24;
 
@@ -56,7 +56,7 @@ class Cluster {
     }
 
   private:
-    // A frame between its issue and its last report.
+    // A frame from its issue to its last report.
     struct Frame {
         Nanoseconds begin{0};
         std::vector<ServerWork> work;
@@ -76,7 +76,7 @@ class Cluster {
                 network.core_bytes_per_s};
     }
 
-    // On the connection of the two, which is made when it is first needed.
+    // Sends on the connection of the two, which is made when it is first needed.
     void send(std::size_t from, std::size_t to, double bytes, EventQueue::Action arrived) {
         std::unique_ptr<Stream>& stream = streams_[{from, to}];
         if (!stream)
@@ -111,7 +111,7 @@ class Cluster {
         });
     }
 
-    // What one server that draws all of it takes.
+    // The seconds that one server takes to draw everything.
     double drawing_s(std::span<const ProjectedObject> objects) const {
         double polygons = 0;
         Rect covered;
@@ -186,7 +186,7 @@ class Cluster {
         });
     }
 
-    // The frame is forgotten with its last report.
+    // Counts a report; the last one ends the frame.
     void end_report(FrameNumber number) {
         Frame& frame = frames_.at(number);
         if (--frame.reports_missing > 0) return;
@@ -217,9 +217,9 @@ class Cluster {
         ClusterRunCosts costs;
         costs.latency_s = latency_s_ / static_cast<double>(frames);
         costs.events = events_.executed();
-        // A frame begins when the one `frames_in_flight` before it is over, so pictures come in rounds of so
-        // many, and within a round perhaps in a burst: only whole rounds have the mean distance. Those at
-        // the end count; what is left over at the beginning, where the pipeline fills, does not.
+        // A frame begins when the one `frames_in_flight` before it is over. So pictures come in rounds of
+        // that many, perhaps in a burst, and only whole rounds have the mean distance. The last ones count;
+        // the rest at the beginning, where the pipeline fills, does not.
         const std::size_t rounds = (frames - 1) / scenario_.frames_in_flight;
         const std::size_t counted = rounds > 0 ? rounds * scenario_.frames_in_flight : frames;
         const Nanoseconds begin = rounds > 0 ? pictures_[frames - 1 - counted] : Nanoseconds(0);
@@ -269,7 +269,7 @@ class Cluster {
     Assembly assembly_;
     std::map<FrameNumber, Frame> frames_;
     std::vector<FrameTimeline> timelines_;
-    std::vector<Nanoseconds> pictures_;  // when each was complete
+    std::vector<Nanoseconds> pictures_;  // when each was complete, by frame
     double latency_s_ = 0;
     std::vector<double> singles_s_;  // by frame
 };

@@ -13,10 +13,10 @@
 
 namespace swath::sim {
 
-// A run of the cluster on modelled machines.
+// A cluster on modelled machines, and the run that it does.
 struct ClusterScenario {
     std::span<const Object> objects;
-    std::span<const Camera> cameras;  // a frame each, at least one
+    std::span<const Camera> cameras;  // one per frame, at least one
     int width = 1280;
     int height = 960;
     Algorithm algorithm = Algorithm::kHybrid;
@@ -26,34 +26,35 @@ struct ClusterScenario {
     bool keep_timelines = false;
 };
 
-// How much of the run a resource was at work, 0 to 1; of the busiest machine where several have one. The run
-// includes its beginning, when the display has nothing yet, and its end: of a few frames even the
-// bottleneck's share is less than 1.
+// The share of the run, 0 to 1, for which a resource was at work; where several machines have it, that of the
+// busiest. The run includes its beginning, when the display has nothing yet, and its end: with few frames
+// even the bottleneck's share is less than 1.
 struct ResourceUse {
     std::string resource;  // "server graphics", "display network", ...
     double share = 0;
 };
-ResourceUse busiest(std::span<const ResourceUse> use);  // the first of equals; `use` is not empty
+ResourceUse busiest(std::span<const ResourceUse> use);  // the first of equal ones; `use` is not empty
 
 struct ClusterRunCosts {
-    // Mean from one complete picture to the next, once the pipeline is full: over the run's last frames, as
-    // many whole rounds of frames in flight as follow a first picture. Of a run without one, over all of it.
-    // What was done ahead of that picture is missing: some per cent of five frames, nothing much of ten.
+    // Mean time from one complete picture to the next, once the pipeline is full: over the last frames of the
+    // run, as many whole rounds of frames in flight as follow a first picture. If there is no such round,
+    // over all of the run. Work done ahead of that first picture is missing: some per cent with five frames,
+    // almost nothing with ten.
     double frame_s = 0;
-    double latency_s = 0;  // mean, from the beginning of a frame's partition to its complete picture
-    double single_s = 0;   // mean over frame_s's frames: one server draws all there is and does nothing else
+    double latency_s = 0;  // mean, from the beginning of partitioning to the complete picture
+    double single_s = 0;   // mean over frame_s's frames: one server draws everything and does nothing else
     std::vector<ResourceUse> use;          // in a fixed order
     std::vector<FrameTimeline> timelines;  // if wanted
     std::uint64_t events = 0;
 };
 
-// Simulates client, servers, network and display, all at work on their frames at once. The machines are
-// driven by the objects that the real programs are driven by (partitioner, Director, FrameSwap, Assembly);
-// only durations are modelled. Deterministic. Thread-safe: every call has its own world.
+// Simulates client, servers, network and display, all at work on their frames at once. The real programs'
+// objects drive the machines (partitioner, Director, FrameSwap, Assembly); only durations are modelled.
+// Deterministic. Thread-safe: calls share nothing.
 //
 // A server with compositing on its graphics card has one frame on the card at a time: drawing, swath reads
 // and writes and the tile's read follow one another there. With compositing in host memory one thread draws
-// and reads back, and another codes, merges and gathers, also while the next frame is drawn.
+// and reads back, and another codes, composites and gathers, also while the next frame is drawn.
 ClusterRunCosts simulate(const ClusterScenario& scenario);
 
 }  // namespace swath::sim

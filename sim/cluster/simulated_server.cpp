@@ -67,7 +67,7 @@ void SimulatedServer::draw_next() {
     if (on_card()) {
         work_on(draw_, number, Phase::kRender, work.render_s, drawn);
     } else {
-        // At once, so that no other frame's drawing comes between.
+        // Submits both at once, so that no other frame's drawing comes between.
         work_on(draw_, number, Phase::kRender, work.render_s, [] {});
         work_on(draw_, number, Phase::kPixelRead, work.read_s, drawn);
     }

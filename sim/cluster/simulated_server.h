@@ -16,27 +16,27 @@ namespace swath::sim {
 
 inline Nanoseconds nanoseconds(double seconds) { return Nanoseconds(std::llround(seconds * 1e9)); }
 
-// What a decision object says to an event. An error would blame a machine that is ours: a bug.
+// The actions of a decision object. An error blames a machine, and all of those are ours: a bug.
 template <class T>
 T decided(Result<T> decision) {
     if (!decision) throw CheckFailed(decision.error().message);
     return *std::move(decision);
 }
 
-// A server on modelled hardware: FrameSwap decides, its stations take the time. Lives in one simulation.
+// A server on modelled hardware: FrameSwap decides, its stations take the time. Belongs to one simulation.
 class SimulatedServer {
   public:
-    // What leaves the server.
+    // The server calls these for everything that leaves it.
     struct Outside {
         std::function<void(FrameNumber, const SwathWork&)> send_swath;
         std::function<void(FrameNumber)> send_tile;
-        std::function<void(FrameNumber)> report;  // its part of the frame is over
+        std::function<void(FrameNumber)> report;  // its work for the frame is over
     };
 
     SimulatedServer(EventQueue& events, Compositing compositing, std::size_t frames_in_flight,
                     Outside outside);
 
-    // `work` lives until the frame is reported.
+    // `work` must live until the frame is reported.
     void on_task(FrameNumber frame, const ServerWork& work);
     void on_swath(FrameNumber frame, ServerId from, double merge_s);
 
@@ -46,14 +46,14 @@ class SimulatedServer {
 
   private:
     struct Frame {
-        const ServerWork* work = nullptr;  // null until the task has come
+        const ServerWork* work = nullptr;  // null until the task comes
         std::map<ServerId, double> merge_s;
         std::vector<Span> spans;
     };
     void run(const FrameSwap::Actions& actions);
     void draw_next();
     void finish(FrameNumber frame);
-    // Does a job of the frame and then `after`.
+    // Does a job for the frame, then `after`.
     void work_on(Station& station, FrameNumber frame, Phase phase, double duration_s,
                  std::function<void()> after);
     bool on_card() const { return compositing_ == Compositing::kGraphics; }
@@ -66,7 +66,7 @@ class SimulatedServer {
     Station host_;
     std::map<FrameNumber, Frame> frames_;
     std::deque<FrameNumber> to_draw_;
-    bool card_taken_ = false;  // compositing on the card: a frame is on it
+    bool card_taken_ = false;  // with compositing on the card: a frame is on it
 };
 
 }  // namespace swath::sim

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kColumn = "speedup";           // the paper's: of the servers alone
-constexpr std::string_view kFullColumn = "full_speedup";  // of the whole simulated cluster
+constexpr std::string_view kColumn = "speedup";           // the paper's, of the servers alone
+constexpr std::string_view kFullColumn = "full_speedup";  // the whole simulated cluster's
 constexpr std::uint64_t kMaxFileBytes = 512ull << 20;
 
 struct Input {
@@ -36,7 +36,7 @@ Result<Input> parse_input(const std::string& text) {
     return Input{text.substr(0, equals), text.substr(equals + 1)};
 }
 
-// Puts the point where it belongs; `what` is what has two of them otherwise.
+// Inserts the point in order. A second one for the same number of servers is an error.
 Status add(Curve& curve, std::size_t servers, double speedup, std::string_view file) {
     const auto place =
         std::ranges::lower_bound(curve.points, servers, {}, [](const auto& p) { return p.first; });
@@ -67,7 +67,7 @@ Status add_table(const Input& input, std::string_view text, std::vector<Curve>& 
     return {};
 }
 
-// A run of the real cluster.
+// A run of the real cluster, from its timeline.
 struct Run {
     std::size_t servers = 0;
     double frames_per_s = 0;
@@ -103,7 +103,7 @@ std::string full_name(const Curve& curve) {
     return curve.name == curve.label ? curve.label : fmt::format("{}: {}", curve.label, curve.name);
 }
 
-// The place of a text among those seen so far.
+// The position of the text in `seen`, to which it is added if it is new.
 std::size_t place_of(const std::string& text, std::vector<std::string>& seen) {
     const auto found = std::ranges::find(seen, text);
     if (found != seen.end()) return static_cast<std::size_t>(found - seen.begin());

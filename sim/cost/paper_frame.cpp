@@ -10,7 +10,7 @@
 namespace swath::sim {
 namespace {
 
-// The plan with contents as the paper has them: also unseen objects count.
+// The plan with the paper's contents, which unseen objects belong to.
 FramePlan with_whole_contents(const FramePlan& plan, std::span<const ProjectedObject> objects,
                               Algorithm algorithm) {
     const bool clipped = grouping_of(algorithm) == Grouping::kAtLeastOnce;
@@ -25,7 +25,7 @@ FramePlan with_whole_contents(const FramePlan& plan, std::span<const ProjectedOb
     return whole;
 }
 
-// What tiles are cut from: the bounds of all boxes, with MAHD of the cells of its mesh that they touch.
+// The region that tiles are cut from: the bounds of all boxes, or, for MAHD, of the cells that they touch.
 Rect region_of(const FramePlan& plan, std::span<const ProjectedObject> objects, Algorithm algorithm) {
     Rect region;
     for (const ProjectedObject& object : objects) region = bounding(region, object.box);
@@ -111,7 +111,7 @@ std::vector<Row> PaperMeans::table1(const Row& of, Grouping grouping, double ide
     const auto add = [&](const char* column, double value) {
         rows.push_back({of.algorithm, of.model, of.servers, column, value});
     };
-    // Neither can be less than zero: below it is rounding.
+    // Neither can be negative, but rounding may make it so.
     const double overlap_ms = std::max(0.0, mean_.render_s * to_ms - ideal_ms);
     const double imbalance_ms = std::max(0.0, total_ms - mean_.total_s() * to_ms);
     add("ideal_render", ideal_ms);

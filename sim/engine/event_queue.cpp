@@ -7,7 +7,8 @@
 namespace swath::sim {
 namespace {
 
-// Half the levels of a binary heap; the children of a node lie next to each other.
+// With four children a node, the heap has half the levels of a binary one, and siblings lie next to each
+// other.
 constexpr std::size_t kArity = 4;
 constexpr std::uint64_t kEndOfInstant = std::uint64_t{1} << 63;
 
@@ -77,7 +78,7 @@ void EventQueue::cancel(Ticket ticket) {
 void EventQueue::run() {
     while (!heap_.empty()) {
         const Key key = pop();
-        // Out of its slot, which the action may give to another event.
+        // The action leaves its slot first, since it may give the slot to another event.
         const Action action = std::exchange(slots_[key.slot].action, nullptr);
         free_slots_.push_back(key.slot);
         if (!action) continue;

@@ -8,16 +8,16 @@
 
 namespace swath::sim {
 
-// Simulated time and what happens when. Events are ordered by time, then by the order in which they were
-// asked for, so a simulation is the same on every run. Not thread-safe: a simulation has its own.
+// Simulated time, and the events that will happen. Events are ordered by time, then by when they were added,
+// so a simulation is the same on every run. Not thread-safe.
 //
-// Time is whole nanoseconds. Asking for an event and running it is O(log n) with n waiting; a cancelled event
-// keeps its place in the heap until its time comes, without effect.
+// Time is whole nanoseconds. To add an event and run it is O(log n) with n waiting. A cancelled event stays
+// in the heap, without effect, until its time comes.
 class EventQueue {
   public:
     using Action = std::function<void()>;
 
-    // Names an event that was asked for.
+    // Identifies an added event.
     struct Ticket {
         std::uint64_t number;
         std::uint32_t slot;
@@ -29,35 +29,35 @@ class EventQueue {
 
     Nanoseconds now() const { return now_; }
 
-    // `when` is not before now() (CHECKed), `action` can be called (CHECKed).
+    // `when` must not be before now(), and `action` must be callable (both CHECKed).
     Ticket at(Nanoseconds when, Action action);
     Ticket after(Nanoseconds delay, Action action) { return at(now_ + delay, std::move(action)); }
 
-    // Runs when nothing else is left to do now, before time moves on: for what depends on all that happens at
-    // one instant. Events that it asks for now come before the next such action.
+    // Runs `action` when no other event is left at this instant, before time moves on: it sees all that
+    // happened now. Events that it adds for now run before the next such action.
     Ticket at_end_of_instant(Action action);
 
-    // The event does not happen, and time does not stop at it. Nothing, if it happened or was cancelled.
+    // Removes the event: time will not stop at it. Does nothing if it happened or was cancelled.
     void cancel(Ticket ticket);
 
-    // Runs events, and those that they ask for, until there are none. now() is then the last event's time. An
-    // exception from an action leaves the queue without that event, and usable.
+    // Runs events, and those that they add, until none is left. now() is then the last event's time. An
+    // exception from an action removes that event and leaves the queue usable.
     void run();
 
     std::uint64_t executed() const { return executed_; }
 
   private:
-    // Small, since sifting moves them about; actions stay in their slots.
+    // Small, because sifting moves keys; actions stay in their slots.
     struct Key {
         Nanoseconds when;
-        std::uint64_t number;  // the highest bit: at the end of the instant
+        std::uint64_t number;  // highest bit set: at the end of the instant
         std::uint32_t slot;
         bool operator<(const Key& other) const {
             return when != other.when ? when < other.when : number < other.number;
         }
     };
     struct Slot {
-        Action action;  // empty: cancelled
+        Action action;  // empty if cancelled
         std::uint64_t number = 0;
     };
 

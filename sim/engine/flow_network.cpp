@@ -11,10 +11,9 @@ namespace swath::sim {
 namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
-// Levels this close to each other are the same: their difference is rounding, of up to about a thousand
-// flows' rates that were taken from a link's.
+// Levels within this ratio are equal: taking about a thousand flows' rates from a link's rounds that much.
 constexpr double kSameLevel = 1 + 1e-10;
-// Of a flow's time in nanoseconds: what counts as rounding.
+// Slack for rounding in a flow's time in nanoseconds.
 constexpr double kSlackNs = 1e-3;
 constexpr double kRelativeSlack = 1e-12;
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -25,7 +24,7 @@ void check_rate(double rate) {
     CHECK(std::isfinite(rate));
 }
 
-// For heaps with the first on top.
+// These orders make heaps with the first one on top.
 constexpr auto later_end = [](const auto& a, const auto& b) {
     return a.until != b.until ? a.until > b.until : a.number > b.number;
 };
@@ -96,12 +95,12 @@ void FlowNetwork::begin(Index flow) {
     change(index);
 }
 
-// All flows that end now.
+// Ends all flows that are due now.
 void FlowNetwork::end_flows() {
     wake_.reset();
     ended_.clear();
-    for (std::size_t place = active_.size();
-         place-- > 0;) {  // backwards: deactivate() fills gaps from behind
+    // Backwards, because deactivate() fills gaps from behind.
+    for (std::size_t place = active_.size(); place-- > 0;) {
         if (ends_[place] > events_.now()) continue;
         const Index index = active_[place];
         Pair& pair = pairs_[index];
@@ -116,7 +115,7 @@ void FlowNetwork::end_flows() {
         if (pair.flows.empty()) deactivate(index);
     }
     std::ranges::sort(ended_, {}, &Waiting::number);
-    for (std::size_t i = 0; i < ended_.size(); ++i) {  // an action may send(), and does not change ended_
+    for (std::size_t i = 0; i < ended_.size(); ++i) {  // an action may send(), but does not change ended_
         const Index flow = ended_[i].flow;
         const EventQueue::Action arrived = std::exchange(flows_[flow].arrived, nullptr);
         free_flows_.push_back(flow);
@@ -124,7 +123,7 @@ void FlowNetwork::end_flows() {
     }
 }
 
-// Finds the rates of all flows that the instant's changes can reach.
+// Finds new rates for all flows that the instant's changes can reach.
 void FlowNetwork::share() {
     sharing_asked_ = false;
     ++round_;
@@ -135,9 +134,9 @@ void FlowNetwork::share() {
     wake_at_next_end();
 }
 
-// Up to some level filling goes as it went before the instant's changes: a flow that ended makes no
-// difference until it had its rate, and one that began none until a link of its own is full, which takes at
-// least an equal part of the link for each of its flows.
+// Up to the level kept_ filling goes as it went before the instant's changes. A flow that ended makes no
+// difference below its rate; one that began makes none before a link of its own is full, at the earliest at
+// an equal part of the link for each of its flows.
 void FlowNetwork::find_kept() {
     kept_ = std::exchange(lowest_ended_, kNone);
     bool grown = false;
@@ -151,7 +150,7 @@ void FlowNetwork::find_kept() {
     kept_ /= kSameLevel;
 }
 
-// The links and pairs that are connected to a change.
+// Collects the links and pairs that are connected to a change.
 void FlowNetwork::reach() {
     const auto reach_link = [&](Index index) {
         Link& link = links_[index];
@@ -168,7 +167,7 @@ void FlowNetwork::reach() {
         reach_link(link);
     }
     touched_.clear();
-    if (has_core()) {  // connects them all
+    if (has_core()) {  // the core connects them all
         for (Index link = 0; link < links_.size(); ++link) reach_link(link);
     }
     const std::size_t hosts = bytes_out_.size();
@@ -186,9 +185,9 @@ void FlowNetwork::reach() {
     }
 }
 
-// Progressive filling: the rates of all flows rise together; those that cross the link which is full first
-// keep theirs, the others rise on. A link's level, the rate at which it will be full, can only rise on the
-// way, so the heap learns of that when the link comes to its top.
+// Progressive filling: the rates of all flows rise together. Those that cross the link which is full first
+// keep theirs, the others rise on. A link's level is the rate at which it will be full. It can only rise on
+// the way, so the heap need not learn of that before the link is on top.
 void FlowNetwork::fill() {
     if (has_core()) {
         core_.given = 0;
@@ -318,7 +317,7 @@ void FlowNetwork::count(Index index, int flows) {
     }
 }
 
-// Notes that the pair's flows have changed at this instant.
+// Marks the pair, whose flows have changed at this instant, and its links.
 void FlowNetwork::change(Index index) {
     pairs_[index].changed = true;
     for (const Index link : {shares_[index].out_link, shares_[index].in_link}) {
@@ -329,13 +328,13 @@ void FlowNetwork::change(Index index) {
     events_.at_end_of_instant([this] { share(); });
 }
 
-// Bytes by now.
+// Bytes until now.
 double FlowNetwork::served(const Pair& pair) const {
     return pair.served +
            pair.rate * (static_cast<double>((events_.now() - pair.since).count()) / kNanosecondsPerSecond);
 }
 
-// Of the pair's first flow that ends.
+// The time at which the pair's first flow ends.
 Nanoseconds FlowNetwork::end_of(const Pair& pair) const {
     const double ns =
         std::max(0.0, pair.flows.front().until - pair.served) / pair.rate * kNanosecondsPerSecond;

@@ -14,7 +14,7 @@ void Station::submit(Nanoseconds duration, Done done) {
     free_at_ = begin + duration;
     busy_ += duration;
     jobs_.push_back({begin, free_at_, std::move(done)});
-    // Jobs end in the order in which they came, also those that end at the same time.
+    // Jobs end in the order in which they came, even at the same time.
     events_.at(free_at_, [this] {
         const Job job = std::move(jobs_.front());
         jobs_.pop_front();

@@ -7,8 +7,8 @@
 
 namespace swath::sim {
 
-// Something that does one job at a time, in the order in which they came: a graphics card, a core, a frame
-// buffer. Borrows the queue, and lives until the queue has run its jobs. Not thread-safe.
+// Does one job at a time, in the order in which they came: a graphics card, a core, a frame buffer. Borrows
+// the queue, and must live until the queue has run its jobs. Not thread-safe.
 class Station {
   public:
     using Done = std::function<void(Nanoseconds begin, Nanoseconds end)>;
@@ -17,11 +17,11 @@ class Station {
     Station(const Station&) = delete;
     Station& operator=(const Station&) = delete;
 
-    // The job begins now, or when those before it have ended. `duration` is not negative (CHECKed). `done` is
-    // called at the job's end.
+    // Begins the job when those before it have ended, and calls `done` at its end. `duration` must not be
+    // negative (CHECKed).
     void submit(Nanoseconds duration, Done done);
 
-    Nanoseconds busy() const { return busy_; }  // in all, of the jobs submitted so far
+    Nanoseconds busy() const { return busy_; }  // total of the jobs submitted so far
 
   private:
     struct Job {
@@ -31,7 +31,7 @@ class Station {
     };
 
     EventQueue& events_;
-    std::deque<Job> jobs_;  // not ended
+    std::deque<Job> jobs_;  // that have not ended
     Nanoseconds free_at_{0};
     Nanoseconds busy_{0};
 };

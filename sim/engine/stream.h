@@ -7,9 +7,9 @@
 
 namespace swath::sim {
 
-// A connection's one direction: messages arrive whole and in the order in which they were sent, the bytes of
-// one after those of the one before, each after the latency. Not thread-safe. Borrows the network, and lives
-// until the events have run.
+// One direction of a connection. Messages arrive whole and in the order in which they were sent: the bytes of
+// one flow after those of the one before, and each message arrives the latency later. Not thread-safe.
+// Borrows the network, and must live until the events have run.
 class Stream {
   public:
     Stream(EventQueue& events, FlowNetwork& network, Nanoseconds latency, std::size_t from, std::size_t to)
@@ -32,7 +32,7 @@ class Stream {
     Nanoseconds latency_;
     std::size_t from_;
     std::size_t to_;
-    std::deque<Message> waiting_;  // the first is flowing, if flowing_
+    std::deque<Message> waiting_;  // if flowing_, the first one is under way
     bool flowing_ = false;
 };
 

@@ -11,7 +11,6 @@
 namespace swath::sim {
 namespace {
 
-// An experiment on one of its paths.
 Outcome run_path(const Experiment& experiment, const std::vector<Camera>& cameras) {
     Outcome outcome;
     const std::span<const Object> model = experiment.model->scene.objects;
@@ -106,7 +105,7 @@ std::vector<Row> all_rows(const Experiment& experiment, const Outcome& outcome) 
 
 std::vector<Outcome> run_experiments(std::span<const Experiment> experiments, std::size_t threads,
                                      const std::function<void(std::size_t, const Outcome&)>& on_done) {
-    // A task is an experiment on one path. Parts are put together in the order of the paths.
+    // One experiment on one path. Outcomes are added up in the order of the paths.
     struct Task {
         std::size_t experiment;
         std::size_t path;
@@ -122,7 +121,7 @@ std::vector<Outcome> run_experiments(std::span<const Experiment> experiments, st
     }
     std::vector<Outcome> outcomes(experiments.size());
     std::atomic<std::size_t> next{0};
-    std::mutex mutex;  // of missing, outcomes, failure and on_done
+    std::mutex mutex;  // guards missing, outcomes, failure and on_done
     std::exception_ptr failure;
     const auto work = [&] {
         for (std::size_t t = next++; t < tasks.size(); t = next++) {

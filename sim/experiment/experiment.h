@@ -15,7 +15,7 @@
 
 namespace swath::sim {
 
-// One row of a study: a model, partitioned in one way for a number of servers, on some hardware.
+// A model on some hardware, partitioned by one algorithm for a number of servers; a row of a study.
 struct Experiment {
     const StudyModel* model = nullptr;
     const Paths* paths = nullptr;
@@ -25,8 +25,8 @@ struct Experiment {
     int width = 1280;
     int height = 960;
     std::size_t frames_in_flight = 3;
-    bool full = true;  // also simulate machines and network
-    // What the table calls it.
+    bool full = true;  // simulate machines and network, too
+    // Labels in the table.
     std::string algorithm_name;
     std::string model_name;
     Row label() const { return {algorithm_name, model_name, servers, {}, 0}; }
@@ -45,7 +45,8 @@ class FullMeans {
     std::vector<ResourceUse> use() const;
     ResourceUse bottleneck() const;  // the busiest
 
-    // full_frame and full_latency in ms, full_speedup, and busy_RESOURCE in per cent.
+    // full_frame and full_latency in ms, full_speedup, and busy_RESOURCE in per cent, with the labels of
+    // `of`.
     std::vector<Row> rows(const Row& of) const;
 
   private:
@@ -63,8 +64,8 @@ struct Outcome {
 std::vector<Row> table1_rows(const Experiment& experiment, const Outcome& outcome);
 std::vector<Row> all_rows(const Experiment& experiment, const Outcome& outcome);
 
-// Runs experiments on `threads` threads (at least 1); `on_done` is called with the place of each when it is
-// complete, from one thread at a time. What comes out does not depend on the number of threads.
+// Runs experiments on `threads` threads (at least 1). Calls `on_done` with the index of each one that is
+// complete, from one thread at a time. Outcomes do not depend on the number of threads.
 std::vector<Outcome> run_experiments(std::span<const Experiment> experiments, std::size_t threads,
                                      const std::function<void(std::size_t, const Outcome&)>& on_done);
 

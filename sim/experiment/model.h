@@ -9,21 +9,21 @@
 
 namespace swath::sim {
 
-// A model, cut into objects, under the name that tables give it.
+// A model, cut into objects, with its name in tables.
 struct StudyModel {
     std::string name;
     ObjectSet scene;
 };
 
-// `file` as in load_model().
+// `file` is as for load_model().
 Result<StudyModel> load_study_model(const std::string& name, const std::string& file,
                                     const Granularity& granularity);
 
-// The cameras of an experiment: a path a seed, `seed` and those after it. A path that does not depend on the
-// seed comes once.
+// The cameras of an experiment: one path for each of the seeds from `seed` on, or a single path if it does
+// not depend on the seed.
 using Paths = std::vector<std::vector<Camera>>;
 struct PathSpec {
-    std::string path = "random";  // as make_path() knows it
+    std::string path = "random";  // see make_path()
     std::size_t frames = 50;
     double zoom = 1;
     std::uint64_t seed = 1;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint64_t kMaxFileBytes = 64 << 10;
 constexpr std::string_view kSuffix = ".toml";
 
-// The value as a profile writes it; of what the profile need not say, "none".
+// The value as a profile writes it; "none" for an optional one that is not there.
 struct Shown {
     Hardware& hardware;
     Unit unit;

@@ -15,7 +15,7 @@ constexpr std::string_view kBase = "base";
 
 std::string known_profiles() { return fmt::format("{}", fmt::join(builtin_hardware(), ", ")); }
 
-// Insertions, deletions and replacements from one word to the other.
+// The number of insertions, deletions and replacements from one word to the other.
 std::size_t edits(std::string_view from, std::string_view to) {
     std::vector<std::size_t> row(to.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -30,7 +30,7 @@ std::size_t edits(std::string_view from, std::string_view to) {
     return row.back();
 }
 
-// "did you mean 'network.latency'?", or what there is where nothing is near.
+// "did you mean 'network.latency'?"; or a list of all keys if none is near.
 std::string suggestion(std::string_view unknown) {
     constexpr std::size_t kNear = 3;
     unknown = unknown.substr(0, 100);
@@ -50,13 +50,13 @@ std::string_view kind_of(const toml::node& node) {
     return node.is_number() ? "a number" : "a date or time";
 }
 
-// A number's digits as the profile has them, more or less.
+// The digits of a number, about as the profile has them.
 std::string digits_of(const toml::node& node) {
     if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
     return fmt::format("{}", node.as_floating_point()->get());
 }
 
-// Puts one value of the profile where it belongs.
+// Sets one key's value from a node of the profile.
 class Setter {
   public:
     Setter(Hardware& hardware, const Key& key, const toml::node& node)
@@ -110,7 +110,7 @@ class Setter {
     const toml::node& node_;
 };
 
-// Reads one profile; what it sets and where errors are.
+// Reads one profile.
 class Reader {
   public:
     Reader(std::string name, std::string source) : source_(std::move(source)) {
@@ -180,7 +180,7 @@ class Reader {
         return {};
     }
 
-    // Whether the profile, or the one it is based on, gives the key a value.
+    // True if the profile or its base sets the key.
     bool has(const Key& key) {
         if (set_.contains(key.name)) return true;
         if (base_.empty()) return false;
@@ -201,7 +201,7 @@ class Reader {
     std::string source_;
     std::string base_;
     Hardware hardware_;
-    std::set<std::string_view> set_;  // the keys that this profile has
+    std::set<std::string_view> set_;  // the keys that this profile sets
 };
 
 }  // namespace

@@ -7,15 +7,15 @@
 
 namespace swath::sim {
 
-// A profile that is part of the program: its name and its text.
+// A profile that is compiled into the program.
 struct Builtin {
     std::string_view name;
     std::string_view toml;
 };
 std::span<const Builtin> builtins();
-const Builtin* find_builtin(std::string_view name);  // null where there is none of the name
+const Builtin* find_builtin(std::string_view name);  // null if there is none of this name
 
-// parse_hardware() whose errors name `source`.
+// As parse_hardware(), but errors name `source`.
 Result<Hardware> parse_profile(std::string_view toml, std::string name, std::string source);
 
 }  // namespace swath::sim

@@ -13,7 +13,7 @@ namespace {
 struct Suffix {
     std::string_view text;
     double scale;
-    bool shown = true;  // to_text chooses it
+    bool shown = true;  // to_text may choose it
 };
 
 constexpr std::array kTimes{Suffix{"ns", 1e-9}, Suffix{"us", 1e-6}, Suffix{"ms", 1e-3}, Suffix{"s", 1}};
@@ -28,14 +28,14 @@ constexpr std::array kPixelRates{Suffix{"pixel/s", 1}, Suffix{"kpixel/s", 1e3}, 
 constexpr std::array kByteCounts{Suffix{"B", 1}};
 constexpr std::array kNone{Suffix{"", 1}};
 
-// What there is to know of a unit. Its suffix is one of `scaled` and then `per`.
+// All that is known of a unit. Its suffix is one of `scaled`, then `per`.
 struct Kind {
     Unit unit;
     std::string_view name;
     std::string_view example;
     std::span<const Suffix> scaled;
     std::string_view per;
-    double smallest;  // beyond these a value is a slip of the pen
+    double smallest;  // a value beyond these limits is a slip of the pen
     double largest;
     bool may_be_zero;
 };
@@ -61,7 +61,7 @@ static_assert([] {
     return true;
 }());
 
-// The suffix's scale, or 0 where it is none of the kind's.
+// The suffix's scale; 0 if the kind has no such suffix.
 double scale_of(std::string_view suffix, const Kind& of) {
     for (const Suffix& scaled : of.scaled)
         if (suffix.starts_with(scaled.text) && suffix.substr(scaled.text.size()) == of.per)
@@ -112,7 +112,7 @@ std::string to_text(double value, Unit unit) {
     const Kind& shown = kind(unit);
     const Suffix* best = &shown.scaled.front();
     for (const Suffix& suffix : shown.scaled)
-        // The least number of at least 1; a hair below it is 1 with a rounding error.
+        // Chooses the least number of at least 1. A hair below 1 is a rounding error.
         if (suffix.shown && value >= suffix.scale * (1 - 1e-9)) best = &suffix;
     return fmt::format("{:.6g}{}{}{}", value / best->scale, best->text.empty() ? "" : " ", best->text,
                        shown.per);

@@ -6,7 +6,7 @@
 
 namespace swath::sim {
 
-// What a number of a profile measures.
+// The kind of quantity that a number of a profile is.
 enum class Unit {
     kTime,           // s
     kBandwidth,      // B/s
@@ -19,15 +19,15 @@ enum class Unit {
     kShare,          // a bare number, more than 0 and at most 1
 };
 
-// "a time", and a value of it as a profile writes it: "20 us".
+// "a time", and a sample value as a profile writes it: "20 us".
 std::string_view name(Unit unit);
 std::string_view example(Unit unit);
 
-// "1.33 us/polygon" -> 1.33e-6. Numbers are as in C without hexadecimal, in every locale; what is not
-// positive (of times: negative) or outside of anything that exists is an error.
+// "1.33 us/polygon" -> 1.33e-6. Numbers are as in C without hexadecimal, in every locale. Errors: a number
+// that is not positive (times: negative), or outside of anything that exists.
 Result<double> parse_quantity(std::string_view text, Unit unit);
 
-// The value with the unit that a person would choose; parse_quantity reads it back (to six digits).
+// Writes the value with the unit that a person would choose. parse_quantity reads it back (to six digits).
 std::string to_text(double value, Unit unit);
 
 }  // namespace swath::sim

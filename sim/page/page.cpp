@@ -76,7 +76,7 @@ void Page::note(std::string_view paragraph) {
 }
 
 void Page::table(const PageTable& table, std::string_view caption) {
-    // A wide table scrolls in its place, also by keys; the caption does not scroll away with it.
+    // A wide table scrolls in its place, also by keys; its caption stays.
     body_ += fmt::format(
         "<figure><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-labelledby=\"t{0}\"><table>\n"
         "<thead>{1}</thead>\n<tbody>\n",

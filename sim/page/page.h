@@ -6,23 +6,23 @@
 
 namespace swath::sim {
 
-// A table of text; the first column names the rows and is left, all others right.
+// A table of text. The first column names the rows and is aligned left, all others right.
 struct PageTable {
     std::vector<std::string> head;
     std::vector<std::vector<std::string>> rows;
 };
 
-// An HTML page that needs nothing but the pictures that it names, light or dark as the reader's system is.
-// All text is escaped. Parts appear in the order of the calls.
+// An HTML page, light or dark as the reader's system is, that needs no files but its pictures. All text is
+// escaped. Parts appear in the order of the calls.
 class Page {
   public:
     explicit Page(std::string title) : title_(std::move(title)) {}
 
     void section(std::string_view title);  // listed at the top
     void text(std::string_view paragraph);
-    void note(std::string_view paragraph);  // set apart: what to beware of
+    void note(std::string_view paragraph);  // a warning, set apart
     void table(const PageTable& table, std::string_view caption);
-    // Files beside the page. Several pictures stand side by side where there is room.
+    // The file lies beside the page. Several pictures stand side by side if there is room.
     struct Picture {
         std::string file;
         std::string caption;

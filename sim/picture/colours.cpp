@@ -6,7 +6,7 @@
 namespace swath::sim {
 namespace {
 
-// Bjoern Ottosson's OKLCH, hue in turns, to sRGB: equal lightness looks equally light at every hue.
+// Converts Björn Ottosson's OKLCH (hue in turns) to sRGB. Equal lightness looks equally light at every hue.
 Rgb from_oklch(double lightness, double chroma, double hue) {
     const double a = chroma * std::cos(2 * 3.141592653589793 * hue);
     const double b = chroma * std::sin(2 * 3.141592653589793 * hue);
@@ -27,8 +27,8 @@ Rgb from_oklch(double lightness, double chroma, double hue) {
 }  // namespace
 
 Rgb server_colour(ServerId id) {
-    // Steps of the plastic number's sequence, which spreads points over a square as evenly as the golden
-    // ratio's does over a line.
+    // The plastic number's sequence spreads points over a square as evenly as the golden ratio's does over a
+    // line.
     const auto step = [&](double part) {
         const double at = 0.5 + part * static_cast<double>(index(id));
         return at - std::floor(at);

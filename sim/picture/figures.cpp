@@ -8,7 +8,7 @@
 namespace swath::sim {
 namespace {
 
-// The model steps back behind what is drawn over it.
+// The model is dimmed, so that the layers over it stand out.
 constexpr double kBrightness = 0.6;
 constexpr double kTint = 0.32;
 constexpr Ink kReplicated{{255, 196, 46}, 0.95};

@@ -11,7 +11,7 @@
 namespace swath::sim {
 namespace {
 
-// What a box leaves of the lines behind it.
+// A box leaves this much of the lines behind it.
 constexpr float kBehind = 0.3f;
 
 std::size_t place(const View& view, int x, int y) {
@@ -30,7 +30,7 @@ void blend_at(Picture& picture, std::size_t pixel, const Rgb& colour, double opa
     std::copy(mixed.begin(), mixed.end(), rgb);
 }
 
-// Who owns each pixel.
+// The owner of each pixel.
 std::vector<ServerId> owners(const FramePlan& plan) {
     std::vector<ServerId> owner(place(plan.view, 0, plan.view.height));
     for (std::size_t s = 0; s < plan.servers.size(); ++s)
@@ -97,7 +97,7 @@ Picture with_tile_borders(Picture picture, const FramePlan& plan) {
 Picture with_wireframes(Picture picture, std::span<const Box> boxes, const View& view, const Ink& ink) {
     check_size(picture, view);
     const double width = std::max(1.0, view.width / 900.0);
-    // Far to near by the depth of the centre, in that order for equal ones.
+    // Draws boxes from far to near, by the depth of their centres; equal ones in their order.
     const auto depth = [&](std::size_t i) {
         return (view.clip_from_model * glm::vec4(boxes[i].centre(), 1)).w;
     };

@@ -20,7 +20,7 @@ double distance(const glm::dvec2& point, const Segment& line) {
 std::optional<Segment> project_segment(const glm::vec3& a, const glm::vec3& b, const View& view) {
     const glm::dmat4 matrix(view.clip_from_model);
     const std::array<glm::dvec4, 2> ends{matrix * glm::dvec4(a, 1.0), matrix * glm::dvec4(b, 1.0)};
-    double first = 0;  // the part of the line that is inside, of 0 to 1
+    double first = 0;  // the part of the line that is inside, from 0 to 1
     double last = 1;
     for (const int axis : {0, 1, 2})
         for (const double sign : {-1.0, 1.0}) {
@@ -44,7 +44,7 @@ void draw_line(Coverage& coverage, const Segment& line, double width, const Rect
     const Rect area = intersect(clip, {0, 0, coverage.width, coverage.height});
     if (area.empty()) return;
     const glm::dvec2 along = line[1] - line[0];
-    // Walks the pixels of the axis on which the line is longer; across it few can be covered.
+    // Walks the pixels along the axis in which the line is longer; across it the line covers few.
     const int major = std::abs(along.x) >= std::abs(along.y) ? 0 : 1;
     const int minor = 1 - major;
     const double slope = along[major] != 0 ? along[minor] / along[major] : 0.0;
@@ -52,7 +52,7 @@ void draw_line(Coverage& coverage, const Segment& line, double width, const Rect
     const double across = reach * std::sqrt(1 + slope * slope);
     const std::array<int, 2> low{area.x0, area.y0};
     const std::array<int, 2> high{area.x1 - 1, area.y1 - 1};
-    // Clamped before the conversion: an end may lie farther away than an int reaches.
+    // Clamps before it converts: an end may lie farther away than an int reaches.
     const auto pixel = [&](double at, int axis) {
         const auto a = static_cast<std::size_t>(axis);
         return static_cast<int>(std::floor(std::clamp(at, low[a] - 1.0, high[a] + 1.0)));
@@ -95,7 +95,7 @@ void draw(Coverage& coverage, const Wireframe& frame, double width) {
 void fade_behind(Coverage& coverage, const Wireframe& frame, float remains) {
     const Rect area = intersect(frame.bounds, {0, 0, coverage.width, coverage.height});
     for (int y = area.y0; y < area.y1; ++y) {
-        // A box is convex: in a row it lies between its edges' outermost crossings.
+        // A box is convex: in a row it lies between the outermost crossings of its edges.
         const double at = y + 0.5;
         double low = area.x1;
         double high = area.x0;

@@ -10,8 +10,8 @@
 
 namespace swath::sim {
 
-// How much of each pixel lines cover, 0 to 1, rows bottom-up. Where lines meet the greater coverage counts,
-// so that corners and edges drawn twice are not brighter than the rest.
+// The part of each pixel that lines cover, 0 to 1, rows bottom-up. Where lines meet the greater coverage
+// counts, so that corners and edges drawn twice are not brighter than the rest.
 struct Coverage {
     Coverage(int w, int h)
         : width(w), height(h), of(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
@@ -20,26 +20,26 @@ struct Coverage {
     std::vector<float> of;
 };
 
-// Ends of a line in pixels, (0, 0) at the lower left corner of the picture.
+// The ends of a line in pixels; (0, 0) is the lower left corner of the picture.
 using Segment = std::array<glm::dvec2, 2>;
 
-// The visible part of the line from `a` to `b`, points of the model: cut at all six planes of the view's
-// frustum, so that it lies in the viewport. Nothing when it is outside.
+// The visible part of the line from `a` to `b`, points of the model. It is cut at all six planes of the
+// view's frustum, so it lies in the viewport. Nothing if the line is outside.
 std::optional<Segment> project_segment(const glm::vec3& a, const glm::vec3& b, const View& view);
 
 // Draws an anti-aliased line of `width` pixels with round ends, in the pixels of `clip`.
 void draw_line(Coverage& coverage, const Segment& line, double width, const Rect& clip);
 
-// A box on the screen: what can be seen of its twelve edges, hidden ones too, and its screen_bounds.
+// A box on the screen: the visible parts of its twelve edges, hidden ones too, and its screen_bounds.
 struct Wireframe {
     std::vector<Segment> edges;
     Rect bounds;
 };
 Wireframe project_wireframe(const Box& box, const View& view);
 
-// Draws the edges, in pixels of the bounds only.
+// Draws the edges, only in pixels of the bounds.
 void draw(Coverage& coverage, const Wireframe& frame, double width);
-// Multiplies what has been drawn between the edges by `remains`.
+// Multiplies the coverage between the edges by `remains`.
 void fade_behind(Coverage& coverage, const Wireframe& frame, float remains);
 
 }  // namespace swath::sim

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMaxText = 80;  // bytes of a name in a picture
 
-// A file in memory: a child can read or write it without either of us waiting for the other.
+// A file in memory. A child can read or write it without either of us waiting for the other.
 class MemoryFile {
   public:
     MemoryFile() : fd_(::memfd_create("gnuplot", MFD_CLOEXEC)) {}
@@ -39,7 +39,7 @@ class MemoryFile {
         return ::lseek(fd_, 0, SEEK_SET) == 0;
     }
 
-    // All of it, or what could be read.
+    // All bytes, or as many as could be read.
     Buffer contents() const {
         const off_t size = ::lseek(fd_, 0, SEEK_END);
         Buffer bytes(size > 0 ? static_cast<std::size_t>(size) : 0);
@@ -59,7 +59,7 @@ class MemoryFile {
     int fd_;
 };
 
-// Our environment, but texts and numbers as everywhere.
+// Our environment, but with an English locale for texts and numbers.
 std::vector<char*> environment() {
     static std::array locale{std::string("LC_ALL=C.UTF-8")};
     std::vector<char*> all;
@@ -70,7 +70,7 @@ std::vector<char*> environment() {
     return all;
 }
 
-// Bytes of the UTF-8 character that `text` begins with; 0 where it begins with none.
+// The number of bytes of the UTF-8 character that `text` begins with; 0 if it is none.
 std::size_t character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const std::size_t size = byte(0) < 0x80   ? 1
@@ -81,14 +81,14 @@ std::size_t character(std::string_view text) {
     if (size == 0 || byte(0) > 0xf4 || text.size() < size) return 0;
     for (std::size_t i = 1; i < size; ++i)
         if ((byte(i) & 0xc0) != 0x80) return 0;
-    // Too long, a surrogate, or beyond the last.
+    // Rejects overlong forms, surrogates, and numbers above the last character.
     if ((byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xed && byte(1) > 0x9f) ||
         (byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f))
         return 0;
     return size;
 }
 
-// The first line of what gnuplot complained about that says what is wrong.
+// The first line of gnuplot's errors that says what is wrong.
 std::string complaint(const Buffer& errors) {
     std::string_view text(reinterpret_cast<const char*>(errors.data()), errors.size());
     while (!text.empty()) {
@@ -122,8 +122,7 @@ std::string printable(std::string_view text) {
 }
 
 std::string literal(std::string_view text) {
-    // Of all quoting that gnuplot has, only this leaves nothing to interpret: a number for every byte that is
-    // not plainly a letter or a digit.
+    // Of gnuplot's ways to quote, only octal numbers leave nothing to interpret.
     std::string out = "\"";
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
@@ -142,7 +141,7 @@ Result<Buffer> run_gnuplot(std::string_view script) {
 
     posix_spawn_file_actions_t actions;
     if (::posix_spawn_file_actions_init(&actions) != 0) return fail("cannot run gnuplot: out of memory");
-    // The copies that the program gets stay open there.
+    // The child's copies stay open.
     ::posix_spawn_file_actions_adddup2(&actions, in.fd(), STDIN_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions, out.fd(), STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions, errors.fd(), STDERR_FILENO);

@@ -13,29 +13,29 @@
 namespace swath::sim {
 namespace {
 
-// Okabe and Ito, "Color Universal Design" (2008): eight colours that colour-blind people tell apart; without
+// Okabe and Ito, "Color Universal Design" (2008): eight colours that colour-blind people tell apart, without
 // yellow, which is hard to see on white.
 constexpr std::array<std::string_view, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                    "#e69f00", "#56b4e9", "#000000"};
-// Marks that differ in shape too, filled: circle, square, triangle, diamond, triangle down, pentagon.
+// Filled marks of different shape: circle, square, triangle, diamond, triangle down, pentagon.
 constexpr std::array<int, 6> kMarks{7, 5, 9, 13, 11, 15};
-// The same, open: for points without a line.
+// The same, open, for points without a line.
 constexpr std::array<int, 6> kOpenMarks{6, 4, 8, 12, 10, 14};
 
 constexpr std::string_view kText = "#333333";
 constexpr std::string_view kGrey = "#888888";
 
-// In the SVG's pixels. A legend of many or long names makes the picture larger, not the plot smaller.
+// Pixels of the SVG. A legend of many or long names makes the picture larger, not the plot smaller.
 struct Canvas {
     std::size_t width = 900;
     std::size_t height = 540;
 };
 
 Canvas canvas_for(const std::vector<std::string>& legend) {
-    constexpr std::size_t kPlotWidth = 660;  // with the axis, and the legend's samples
+    constexpr std::size_t kPlotWidth = 660;  // including the axis and the legend's samples
     constexpr std::size_t kMargins = 100;
     constexpr std::size_t kLetter = 9;
-    constexpr std::size_t kLine = 36;  // what gnuplot takes for a line before it begins another column
+    constexpr std::size_t kLine = 36;  // gnuplot begins another column of the legend below this
     std::size_t longest = 0;
     for (const std::string& name : legend) longest = std::max(longest, name.size());
     Canvas canvas;
@@ -51,7 +51,7 @@ std::string svg_of(const Canvas& canvas) {
         canvas.width, canvas.height);
 }
 
-// Twice the pixels of the SVG, for screens that have them.
+// Has twice the pixels of the SVG, for screens of high density.
 std::string png_of(const Canvas& canvas) {
     return fmt::format(
         "set terminal pngcairo noenhanced size {},{} background '#ffffff' font 'DejaVu Sans,13' "
@@ -59,10 +59,10 @@ std::string png_of(const Canvas& canvas) {
         2 * canvas.width, 2 * canvas.height);
 }
 
-// Somebody's text in the script.
+// Quotes somebody's text for the script.
 std::string text(std::string_view name) { return literal(printable(name)); }
 
-// ... below an axis, where gnuplot takes it for a format of numbers.
+// Quotes text below an axis, where gnuplot takes it for a format of numbers.
 std::string tic(std::string_view name) {
     std::string format;
     for (const char c : printable(name)) format += c == '%' ? "%%" : std::string(1, c);
@@ -74,7 +74,7 @@ Status check_number(double value, const std::string& of) {
     return fail("cannot draw '{}': {} is not a finite number", printable(of), value);
 }
 
-// What all pictures share.
+// The part of the script that all pictures share.
 std::string frame(const std::string& title, const std::string& x_label, const std::string& y_label) {
     std::string script = "set encoding utf8\n";
     script += fmt::format("set border 3 linecolor rgb '{}' linewidth 1\n", kGrey);
@@ -87,7 +87,7 @@ std::string frame(const std::string& title, const std::string& x_label, const st
     return script + "set yrange [*<0:*]\n";
 }
 
-// A place among so many, however large the number.
+// Begins again after the last.
 template <class T, std::size_t n>
 const T& nth(const std::array<T, n>& of, std::size_t i) {
     return of[i % n];
@@ -113,8 +113,8 @@ std::string style_of(const Series& series, std::size_t place) {
     return fmt::format("with lines linecolor rgb '{}' linewidth 1 dashtype (4,4)", kGrey);
 }
 
-// The plot's own tics, else tics at the places that have points, if they are few and far enough apart to be
-// read; else gnuplot's.
+// Tics of the plot's own if it has some. Otherwise tics at the x of points, if these are few and far enough
+// apart to be read; else gnuplot's.
 std::string tics_of(const Plot& plot) {
     if (!plot.x_tics.empty()) {
         std::string tics;
@@ -208,7 +208,7 @@ Result<std::string> script_of(const Bars& bars) {
         x += kGap;
     }
     std::string script = frame(bars.title, "", bars.y_label);
-    if (has_stacks) script += "set key invert\n";  // the topmost segment first, as in the bars
+    if (has_stacks) script += "set key invert\n";  // the topmost segment comes first, as in the bars
     script += fmt::format("set xrange [{}:{}]\n", -kGap, x - 1);
     script += fmt::format("set xtics scale 0 ({})\n", tics) + names;
     if (has_labels) script += "set bmargin 4\n";

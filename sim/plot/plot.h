@@ -10,17 +10,17 @@
 namespace swath::sim {
 
 enum class Style {
-    kLine,       // with a mark at every point
-    kDashed,     // the same, dashed
-    kPoints,     // marks alone: somebody else's figures beside our line
-    kReference,  // thin, grey and dashed: an ideal
+    kLine,       // with marks
+    kDashed,     // with marks, dashed
+    kPoints,     // marks without a line, for others' figures beside ours
+    kReference,  // thin, grey and dashed, for an ideal
 };
 
 struct Series {
     std::string name;
-    std::vector<std::pair<double, double>> points;  // axes begin at 0 where none is less
+    std::vector<std::pair<double, double>> points;  // axes begin at 0 unless a value is negative
     Style style = Style::kLine;
-    std::optional<std::size_t> colour = std::nullopt;  // series of one number match; without: its place
+    std::optional<std::size_t> colour = std::nullopt;  // series of one number match; none: by position
 };
 
 // Curves over a common axis. Names and labels are text, never markup.
@@ -28,18 +28,17 @@ struct Plot {
     std::string title;
     std::string x_label;
     std::string y_label;
-    bool log2_x = false;  // as in the papers' figures over the number of servers; x is then more than 0
+    bool log2_x = false;  // as in the papers' figures over servers; x must be more than 0
     std::vector<Series> series;
-    bool log10_y = false;                                     // y is then more than 0
-    std::vector<std::pair<double, std::string>> x_tics = {};  // place and text, for numbers too long to read
+    bool log10_y = false;                                     // y must be more than 0
+    std::vector<std::pair<double, std::string>> x_tics = {};  // x and text, for numbers too long to read
 };
 
-// Stacked bars, in groups along the axis. Bars that stand side by side, one segment each, are stacks whose
-// other segments are 0.
+// Stacked bars, in groups along the axis. Bars side by side are stacks with a single segment above 0.
 struct Bars {
     struct Bar {
-        std::string label;           // below it; may be empty
-        std::vector<double> values;  // by segment, from the bottom up; 0 or more
+        std::string label;           // below the bar; may be empty
+        std::vector<double> values;  // by segment, from the bottom up; not negative
     };
     struct Group {
         std::string name;
@@ -51,9 +50,9 @@ struct Bars {
     std::vector<Group> groups;
 };
 
-// Draws into STEM.svg and STEM.png with the program gnuplot; the same bytes for the same input and version of
-// it. Errors: there is nothing to draw, a number that cannot be drawn (named), gnuplot is not installed or
-// failed, or a file cannot be written.
+// Draws STEM.svg and STEM.png with the program gnuplot; the same input and version of gnuplot give the same
+// bytes. Errors: nothing to draw, a number that cannot be drawn (named), gnuplot missing or failed, a file
+// that cannot be written.
 Status draw(const Plot& plot, const std::filesystem::path& stem);
 Status draw(const Bars& bars, const std::filesystem::path& stem);
 

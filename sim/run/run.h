@@ -8,11 +8,11 @@ namespace swath::sim {
 
 struct RunOptions {
     ScenarioOptions scenario;
-    std::string csv;       // file for the table; none if empty
-    std::string timeline;  // FILE.csv or FILE.json, of the one experiment's first path; none if empty
+    std::string csv;       // file for the table; empty: none
+    std::string timeline;  // FILE.csv or FILE.json for the only experiment's first path; empty: none
 };
 
-// What is wrong with the options together.
+// Errors say which options do not go together.
 Status check(const RunOptions& options);
 // `swath-sim run`: simulates one scenario and prints paper mode and full mode side by side.
 Status run(const RunOptions& options);

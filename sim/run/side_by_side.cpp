@@ -9,7 +9,7 @@
 namespace swath::sim {
 namespace {
 
-// "-" where the algorithm has no such column.
+// "-" if the algorithm has no such column.
 std::string cell(std::span<const Row> rows, std::string_view name) {
     const auto found = std::ranges::find(rows, name, &Row::column);
     return found == rows.end() ? "-" : fmt::format("{:.2f}", found->value);

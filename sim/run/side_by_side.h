@@ -6,8 +6,8 @@
 
 namespace swath::sim {
 
-// The experiments' times for people: what the paper counts beside what the whole cluster does. A row each, at
-// most 132 columns wide for short names; a heading for every model.
+// The experiments' times as text: paper mode beside full mode, an experiment a line, at most 132 columns wide
+// for short names, under a heading for every model.
 std::string side_by_side(std::span<const Experiment> experiments, std::span<const Outcome> outcomes);
 
 }  // namespace swath::sim

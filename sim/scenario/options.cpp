@@ -21,7 +21,7 @@ Result<std::size_t> parse_servers(const std::string& text) {
     return servers;
 }
 
-// Each value once, in the order given.
+// Appends a value that is not there yet.
 template <class T>
 void add_once(std::vector<T>& values, T value) {
     if (std::ranges::find(values, value) == values.end()) values.push_back(std::move(value));

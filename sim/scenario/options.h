@@ -9,14 +9,14 @@
 
 namespace swath::sim {
 
-// A model's file and what tables call it.
+// A model's file, and its name in tables.
 struct ModelName {
     std::string name;
     std::string file;
     bool operator==(const ModelName&) const = default;
 };
 
-// What `run` and `sweep` simulate: everything combined with everything.
+// `run` and `sweep` simulate every combination of these.
 struct ScenarioOptions {
     std::vector<ModelName> models;
     std::vector<Algorithm> algorithms;
@@ -29,10 +29,10 @@ struct ScenarioOptions {
     std::size_t threads = 1;
 };
 
-// The flags as the user gave them; read() checks them and makes the options.
+// The flags as the user gave them. read() checks them and makes the options.
 class ScenarioFlags {
   public:
-    // With `many`, models, hardware, sizes and granularities are lists too.
+    // With `many`, models, hardware, sizes and granularities are also lists.
     void add_to(CLI::App& app, bool many);
     Result<ScenarioOptions> read() const;
 
@@ -50,8 +50,8 @@ class ScenarioFlags {
     std::size_t threads_ = 0;
 };
 
-// "NAME=FILE"; FILE alone is called by its name without folder and ending, builtin:NAME by NAME.
+// Reads "NAME=FILE". FILE alone gets its name without folder and ending, builtin:NAME gets NAME.
 Result<ModelName> parse_model_name(const std::string& text);
-std::size_t threads_or_all(std::size_t wanted);  // 0: as many as there are cores
+std::size_t threads_or_all(std::size_t wanted);  // 0 means as many as there are cores
 
 }  // namespace swath::sim

@@ -35,7 +35,7 @@ std::string exact_text(Compositing value) {
 }
 std::string exact_text(const std::string& value) { return value; }
 
-// All of a profile in SI units and every digit, which explain() rounds.
+// Writes all of a profile in SI units with every digit; explain() rounds.
 std::string exact_text(const Hardware& hardware) {
     Hardware copy = hardware;
     std::string text = fmt::format("hardware {}\n", hardware.name);
@@ -45,7 +45,7 @@ std::string exact_text(const Hardware& hardware) {
     return text;
 }
 
-// Tables tell experiments by their labels.
+// Tables tell experiments apart by their labels only.
 Status check_labels(const std::vector<Experiment>& experiments) {
     std::set<std::tuple<std::string, std::string, std::size_t>> labels;
     for (const Experiment& e : experiments)
@@ -101,7 +101,8 @@ Status Scenario::add_model(const ModelName& name, const ScenarioOptions& options
         const StudyModel& model =
             models_.emplace_back(StudyModel{name.name, build_objects(*mesh, granularity)});
         const auto same_cut = [&](const auto& cut) { return cut.first->scene.cut == model.scene.cut; };
-        if (std::ranges::any_of(cuts, same_cut)) {  // of several numbers of objects
+        // Two wished numbers of objects can come to the same depth.
+        if (std::ranges::any_of(cuts, same_cut)) {
             models_.pop_back();
             continue;
         }

@@ -17,12 +17,12 @@
 namespace swath::sim {
 namespace {
 
-// The paper's models. Zoom is what makes the mean area of the model's box on the screen that of the display
-// column of Table 1.
+// The paper's models. `zoom` gives the model's box the mean area on the screen that Table 1's display column
+// has.
 struct PaperModel {
     std::string_view name;
     double zoom;
-    std::string_view stand_in;  // where the mesh is not to be had
+    std::string_view stand_in;  // for when there is no mesh
 };
 constexpr std::array kPaperModels{PaperModel{"hand", 1.25, "builtin:hand"}, PaperModel{"dragon", 1.06, ""},
                                   PaperModel{"buddha", 1.33, ""}};
@@ -84,7 +84,7 @@ Result<StudyContext> StudyContext::open(const StudyOptions& options) {
     if (!hardware) return fail_in("--hardware", hardware.error());
     context.hardware_store_.push_back(std::move(*hardware));
     context.hardware_ = &context.hardware_store_.front();
-    // Before anything long: whether there is a place for what comes out.
+    // Before anything long: tries whether the results can be written.
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error) return fail("--out: {}: {}", options.out.string(), error.message());

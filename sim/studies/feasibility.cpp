@@ -17,7 +17,7 @@ bool in_paper(const Experiment& e) {
     return std::ranges::find(kPaperAlgorithms, e.algorithm) != kPaperAlgorithms.end();
 }
 
-// The paper's columns of one experiment, ours and in brackets the paper's.
+// The columns of an experiment's row, our value and in brackets the paper's.
 std::vector<std::string> cells(const Experiment& e, const Outcome& outcome, const StudySubject& subject) {
     std::vector<std::string> row{fmt::format("{}, {}", e.algorithm_name, e.servers)};
     const std::vector<Row> rows = table1_rows(e, outcome);

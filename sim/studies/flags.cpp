@@ -9,7 +9,7 @@
 namespace swath::sim {
 namespace {
 
-// "dragon=1.06"
+// Reads "dragon=1.06".
 Result<std::pair<std::string, double>> parse_zoom(const std::string& text) {
     const auto equals = text.find('=');
     if (equals != std::string::npos && equals > 0) {

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array kAlgorithms{Algorithm::kMahd, Algorithm::kHybrid, Algorithm::kSortLast};
 constexpr std::array kDepths{3, 4, 5};
 
-// The subject, cut at kDepths; named by the number of objects.
+// Cuts the subject at kDepths. Models are named by their number of objects.
 Result<std::list<StudyModel>> cuts(const StudySubject& subject) {
     std::list<StudyModel> models;
     for (const int depth : kDepths) {
@@ -23,7 +23,7 @@ Result<std::list<StudyModel>> cuts(const StudySubject& subject) {
     return models;
 }
 
-// The same numbers of objects by a SAH octree, as far as it can have them.
+// Cuts the same numbers of objects with a SAH octree, or as close as it gets.
 Result<std::list<StudyModel>> sah_cuts(const StudySubject& subject, const std::list<StudyModel>& uniform) {
     std::list<StudyModel> models;
     for (const StudyModel& other : uniform) {
@@ -73,7 +73,7 @@ Plot figure_13(const Results& results, const std::string& name, const std::list<
     return plot;
 }
 
-// What the SAH octree's objects make of the hybrid's overhead.
+// The hybrid's overhead with the SAH octree's objects beside the uniform ones.
 Plot figure_sah(const Results& results, const std::string& name, const std::list<StudyModel>& uniform,
                 const std::list<StudyModel>& sah) {
     Plot plot{fmt::format("Overhead of servers by cut, {}", name),

@@ -11,7 +11,7 @@ inline constexpr std::size_t kPictureServers = 16;
 
 // A picture of the subject's first frame.
 Result<Picture> first_frame(const StudySubject& subject);
-// The plan of that frame.
+// The plan of that frame for `servers` servers.
 FramePlan first_plan(const StudySubject& subject, const StudyModel& model, Algorithm algorithm,
                      std::size_t servers);
 Status write_picture(const StudyContext& context, const Picture& picture, const std::string& file);

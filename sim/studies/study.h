@@ -12,10 +12,10 @@ namespace swath::sim {
 
 struct StudyOptions {
     std::vector<std::string> names;  // of studies
-    // Without any, or with one of the paper's, those of the paper that are missing here are looked for in
-    // models/, and the Hand's stand-in is taken.
+    // If empty, or if it has one of the paper's models, the paper's missing models are looked for in models/,
+    // and the Hand gets its stand-in.
     std::vector<ModelName> models;
-    std::map<std::string, double> zooms;  // by model, where the paper's setting is not wanted
+    std::map<std::string, double> zooms;  // by model, in place of the paper's
     std::string hardware = "paper-2000";
     std::size_t frames = 50;
     std::uint64_t seed = 1;
@@ -29,7 +29,7 @@ struct StudyOptions {
 // "resolution", "granularity".
 std::vector<std::string> study_names();
 
-// The flags as the user gave them; read() checks them and makes the options.
+// The flags as the user gave them. read() checks them and makes the options.
 class StudyFlags {
   public:
     void add_to(CLI::App& app);
@@ -43,8 +43,8 @@ class StudyFlags {
     std::size_t threads_ = 0;
 };
 
-// Runs the named studies in the paper's order and writes tables, plots and pictures into `out`, with an
-// index.html that shows them. Deterministic, whatever the number of threads. Long; shows progress.
+// Runs the named studies in the paper's order. Writes tables, plots and pictures into `out`, with an
+// index.html that shows them. Deterministic, whatever the number of threads. Takes long; shows progress.
 Status run_studies(const StudyOptions& options);
 
 }  // namespace swath::sim

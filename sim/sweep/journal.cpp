@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kTitle = "# swath-sim sweep, journal 1: the same command goes on from here\n";
 constexpr std::string_view kEnd = "# complete ";
 constexpr std::size_t kSumDigits = 16;
-constexpr std::size_t kShownCharacters = 80;  // of a line in an error
+constexpr std::size_t kShownCharacters = 80;  // of a line, in an error
 
 std::string end_of(std::string_view rows) {
     const auto sum = digest({reinterpret_cast<const std::uint8_t*>(rows.data()), rows.size()});
@@ -25,7 +25,7 @@ std::size_t count_lines(std::string_view text) {
     return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
-// Where `text`, which does not begin with `head`, first differs.
+// The error for a text that does not begin with `head`; names the first line that differs.
 tl::unexpected<Error> difference(std::string_view text, std::string_view head, std::string_view source) {
     if (!text.starts_with(kTitle)) return fail("{}:1: not the journal of a sweep", source);
     const auto differs = static_cast<std::size_t>(std::ranges::mismatch(text, head).in2 - head.begin());
@@ -43,9 +43,9 @@ class Reader {
         contents_.rows.resize(labels.size());
     }
 
-    // What follows the head.
+    // Reads the entries behind the head.
     Result<JournalContents> read(std::string_view text, std::string_view head) {
-        std::size_t begin = head.size();  // of an entry
+        std::size_t begin = head.size();  // where the entry begins
         std::size_t at = begin;
         std::size_t line = 1 + count_lines(head);
         entry_line_ = line;
@@ -58,7 +58,7 @@ class Reader {
             begin = end + 1;
             entry_line_ = line + 1;
         }
-        // Whole lines at the end are rows like others.
+        // Whole lines without an end are a cut-off entry, and must still be rows of this sweep.
         if (const auto place = experiment_of(text.substr(begin, at - begin)); !place)
             return tl::unexpected(place.error());
         contents_.intact_bytes = begin;
@@ -79,7 +79,7 @@ class Reader {
         return {};
     }
 
-    // The experiment that all these rows belong to; it was not complete before them.
+    // The index of the experiment that all these rows belong to, which must not be complete.
     Result<std::size_t> experiment_of(std::string_view lines) const {
         const auto rows = parse_table(to_csv({}).append(lines), source_, entry_line_ - 1);
         if (!rows) return tl::unexpected(rows.error());
@@ -103,7 +103,7 @@ class Reader {
     std::string_view source_;
     std::map<Key, std::size_t> places_;
     JournalContents contents_;
-    std::size_t entry_line_ = 0;  // that the entry begins on
+    std::size_t entry_line_ = 0;  // the line on which the entry begins
 };
 
 }  // namespace
@@ -120,14 +120,14 @@ std::string lines_of(std::span<const Row> rows) { return to_csv(rows).substr(to_
 
 Result<JournalContents> read_journal(std::string_view text, std::string_view head,
                                      std::span<const Row> labels, std::string_view source) {
-    // After a power loss a file may end in zeros where bytes were not yet written.
+    // After a power loss a file may end in zeros, where bytes were never written.
     if (const auto zero = text.find('\0'); zero != text.npos && text.find(kEnd, zero) == text.npos)
         text = text.substr(0, zero);
     if (text.size() < head.size() && head.starts_with(text))
         return JournalContents{std::vector<std::string>(labels.size()), 0};
     if (!text.starts_with(head)) return difference(text, head, source);
     auto contents = Reader(labels, source).read(text, head);
-    // A damaged quote can take line ends into a field: the error stays one line.
+    // A damaged quote can take line ends into a field, but an error is one line.
     if (!contents) std::ranges::replace(contents.error().message, '\n', ' ');
     return contents;
 }

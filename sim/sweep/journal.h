@@ -9,7 +9,7 @@
 
 namespace swath::sim {
 
-// What a sweep has complete, as text that only grows at its end:
+// The complete experiments of a sweep, as text that only grows at its end:
 //   # LINE           what this is, then the sweep's settings
 //   the header of a table (see to_csv)
 //   ROWS             of one experiment, as they are in the table
@@ -20,17 +20,17 @@ std::string journal_head(std::span<const std::string> settings);
 std::string journal_entry(std::string_view rows);
 
 struct JournalContents {
-    std::vector<std::string> rows;  // by experiment: its lines in the table; empty while it is not complete
-    std::size_t intact_bytes = 0;   // the rest of the text is an entry (or a head) that was cut off
+    std::vector<std::string> rows;  // by experiment: its lines in the table; empty if it is not complete
+    std::size_t intact_bytes = 0;   // after these comes an entry (or a head) that was cut off
 };
 
-// `labels` are those of the sweep's experiments, in order; no two are equal. An entry at the end that was
-// being written when the machine or the program died is no error, everything else that is not as it was
-// written is: errors name `source`, the line, and of other settings the first difference.
+// Reads a journal. `labels` are those of the sweep's experiments, in order; no two are equal. A last entry
+// that was cut off when the machine or the program died is no error; any other damage, or settings of another
+// sweep, are. Errors name `source`, the line, and the first setting that differs.
 Result<JournalContents> read_journal(std::string_view text, std::string_view head,
                                      std::span<const Row> labels, std::string_view source);
 
-// The rows' lines of a table, without its header.
+// A table's lines for these rows, without the header.
 std::string lines_of(std::span<const Row> rows);
 
 }  // namespace swath::sim

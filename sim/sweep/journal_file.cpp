@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBytes = 256 << 20;
 
-// So that a file that was made in the folder is still there after a power loss.
+// Makes sure that a new file in the folder is still there after a power loss.
 void sync_folder(const std::filesystem::path& folder) {
     const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd < 0) return;
@@ -28,7 +28,7 @@ void sync_folder(const std::filesystem::path& folder) {
 
 Result<std::unique_ptr<JournalFile>> JournalFile::open(const std::filesystem::path& path,
                                                        const std::string& head, std::span<const Row> labels) {
-    // O_NONBLOCK: somebody's pipe of this name must not hold us up.
+    // O_NONBLOCK: if somebody has made a pipe of this name, open() must not wait.
     const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0644);
     if (fd < 0) return fail("{}: {}", path.string(), std::strerror(errno));
     std::unique_ptr<JournalFile> file(new JournalFile(path, fd));

@@ -27,7 +27,7 @@ Status prepare_folder(const fs::path& folder, const fs::path& table) {
     return {};
 }
 
-// Runs the experiments that the journal lacks.
+// Runs the experiments that are not in the journal.
 Status complete(const std::vector<Experiment>& experiments, std::size_t threads, JournalFile& journal,
                 Progress& progress) {
     std::vector<Experiment> missing;
@@ -41,7 +41,7 @@ Status complete(const std::vector<Experiment>& experiments, std::size_t threads,
     Status status;
     try {
         run_experiments(missing, threads, [&](std::size_t i, const Outcome& outcome) {
-            if (!status) return;  // other threads were still at work
+            if (!status) return;  // other threads were still at work when it failed
             status = journal.append(places[i], lines_of(all_rows(missing[i], outcome)));
             if (!status) throw Stop{};
             progress.step();

@@ -20,7 +20,7 @@ bool parse_all(std::string_view text, T& value) {
     return error == std::errc{} && end == text.data() + text.size();
 }
 
-// "0.25", "12", "-3.1": at most four decimals, none of them a trailing zero.
+// At most four decimals without trailing zeros: "0.25", "12", "-3.1".
 std::string number(double value) {
     std::string text = fmt::format("{:.4f}", value);
     text.erase(text.find_last_not_of('0') + 1);

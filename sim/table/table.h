@@ -9,8 +9,8 @@
 
 namespace swath::sim {
 
-// One number of a study: tidy data, in the schema of ../published/table1.csv. Times are in ms, shares in
-// per cent.
+// One number of a study: tidy data in the schema of ../published/table1.csv. Times are in ms, shares in per
+// cent.
 struct Row {
     std::string algorithm;
     std::string model;
@@ -20,11 +20,12 @@ struct Row {
     bool operator==(const Row&) const = default;
 };
 
-// "algorithm,model,servers,column,value", then a line a row; at most four decimals, none of them a trailing
-// zero; the same text in every locale.
+// Writes "algorithm,model,servers,column,value", then a line a row; at most four decimals without trailing
+// zeros; the same text in every locale.
 std::string to_csv(std::span<const Row> rows);
 
-// Errors name the source, the line and the field. Of a table within a file, `first_line` is the header's.
+// Errors name the source, the line and the field. `first_line` is the header's line, for a table within a
+// file.
 Result<std::vector<Row>> parse_table(std::string_view text, std::string_view source,
                                      std::size_t first_line = 1);
 Result<std::vector<Row>> read_table(const std::filesystem::path& file);
