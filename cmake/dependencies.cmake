@@ -28,20 +28,11 @@ endif()
 # tl::expected is one header.
 find_path(SWATH_EXPECTED_INCLUDE tl/expected.hpp REQUIRED)
 
-# And on CUDA devices, where nvcc is there: with the Thrust that comes with it.
-set(SWATH_CUDA AUTO CACHE STRING "Build SAH octrees on CUDA devices, too: ON, OFF, or AUTO (where there is nvcc)")
-set(SWATH_HAS_CUDA OFF)
-if(SWATH_CUDA STREQUAL "ON" OR (SWATH_CUDA STREQUAL "AUTO" AND NOT SWATH_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU"))
-  include(CheckLanguage)
-  check_language(CUDA)
-  if(CMAKE_CUDA_COMPILER)
-    if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
-      set(CMAKE_CUDA_ARCHITECTURES 75-virtual)  # compiled by the driver for whatever is there, at the first use
-    endif()
-    enable_language(CUDA)
-    find_package(CUDAToolkit REQUIRED)
-    set(SWATH_HAS_CUDA ON)
-  elseif(SWATH_CUDA STREQUAL "ON")
-    message(FATAL_ERROR "SWATH_CUDA is ON, but there is no nvcc")
+# And on CUDA devices, with the Thrust that comes with nvcc.
+if(SWATH_CUDA)
+  if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+    set(CMAKE_CUDA_ARCHITECTURES 75-virtual)  # compiled by the driver for whatever is there, at the first use
   endif()
+  enable_language(CUDA)
+  find_package(CUDAToolkit REQUIRED)
 endif()
