@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
             web.published = *published;
         }
     }
-    // A terminal's Ctrl-C reaches all programs; one on a lifeline leaves it to the one that started it.
+    // A terminal's Ctrl-C reaches all programs. One on a lifeline leaves it to the program that started it.
     StopSignals signals(kExitDone, !program.lifeline);
     tune_allocator();
 

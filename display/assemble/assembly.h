@@ -7,11 +7,11 @@
 
 namespace swath {
 
-// What Assembly wants done.
+// An order from Assembly.
 struct AssemblyAction {
     enum class Kind {
-        kMerge,     // the tile that came from `server` into the frame's picture
-        kComplete,  // the picture is whole
+        kMerge,     // write the tile from `server` into the frame's picture
+        kComplete,  // the picture is complete
     };
     Kind kind{};
     FrameNumber frame = 0;
@@ -19,8 +19,9 @@ struct AssemblyAction {
     bool operator==(const AssemblyAction&) const = default;
 };
 
-// Decides what the display does with tiles (Samanta 2000, section 4, phase 3): merges them as they come and
-// knows when a picture is whole. Sans-I/O like FrameSwap; the simulator drives the same object.
+// Decides what the display does with tiles (Samanta 2000, section 4, phase 3): it assembles them as they
+// come, and knows when a picture is complete. Sans-I/O like FrameSwap; the simulator drives the same object.
+// Errors blame the sender.
 class Assembly {
   public:
     explicit Assembly(std::size_t frames_in_flight) : gather_(frames_in_flight) {}

@@ -12,7 +12,7 @@
 namespace swath {
 namespace {
 
-constexpr std::uint16_t kHttpPort = 80;  // browsers leave it out
+constexpr std::uint16_t kHttpPort = 80;  // browsers leave this port out
 
 std::string lower(std::string_view text) {
     std::string out(text);
@@ -21,7 +21,7 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-// A name or address with or without a port: nothing that means something in a header or in a policy.
+// True for a name or address, with or without a port. It can mean nothing else in a header or a policy.
 bool plausible_host(std::string_view host) {
     return !host.empty() && std::ranges::all_of(host, [](char c) {
         return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' ||
@@ -29,7 +29,7 @@ bool plausible_host(std::string_view host) {
     });
 }
 
-// The next piece of `text` up to the separator, without blanks around it; `text` goes on behind.
+// Cuts the next piece, up to the separator, off `text`. The piece has no blanks around it.
 std::string_view next_piece(std::string_view& text, char separator) {
     const std::size_t end = std::min(text.find(separator), text.size());
     std::string_view piece = text.substr(0, end);
@@ -39,7 +39,7 @@ std::string_view next_piece(std::string_view& text, char separator) {
     return piece;
 }
 
-// How long it takes says nothing about where they differ.
+// Compares in a time that does not tell where they differ.
 bool same(std::string_view a, std::string_view b) {
     return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
 }

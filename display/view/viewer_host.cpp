@@ -23,7 +23,7 @@ SharedBytes to_bytes(std::string_view text) {
     return bytes;
 }
 
-// A picture as docs/viewer.md has it on the WebSocket.
+// Encodes a picture into a message (docs/viewer.md, WebSocket).
 SharedBytes picture_message(const EncodePicture& task) {
     const Buffer image = encode(
         *task.picture, task.key.format == ViewFormat::kPng ? PictureFormat::kPng : PictureFormat::kJpeg);
@@ -49,9 +49,9 @@ SharedBytes picture_message(const EncodePicture& task) {
     return message;
 }
 
-// What a viewer says, as far as the display reads it.
+// The messages of a viewer, as far as the display reads them.
 struct Lead {};
-struct Wanted {};  // a wish: the text itself counts
+struct Wanted {};  // a wish, of which only the text counts
 using ViewerText = std::variant<PictureKey, Lead, Wanted>;
 
 Result<ViewerText> parse_text(std::string_view text) {
@@ -84,7 +84,7 @@ Result<ViewerText> parse_text(std::string_view text) {
 
 }  // namespace
 
-// Carries what a session is told over to its executor: the newest of each kind, however slowly it listens.
+// Brings events to the session's executor. If the session is slow, it gets the newest of each kind.
 class ViewerHost::Messenger : public std::enable_shared_from_this<Messenger> {
   public:
     Messenger(asio::any_io_executor executor, Callbacks callbacks)
@@ -119,15 +119,15 @@ class ViewerHost::Messenger : public std::enable_shared_from_this<Messenger> {
     const asio::any_io_executor executor_;
     const Callbacks callbacks_;
     std::mutex mutex_;
-    bool on_its_way_ = false;                               // guarded by mutex_, as are
-    std::optional<std::uint32_t> audience_;                 // this
+    bool on_its_way_ = false;                               // mutex_ guards this
+    std::optional<std::uint32_t> audience_;                 // and this
     std::optional<std::pair<ViewerId, std::string>> wish_;  // and this
 };
 
 Result<std::unique_ptr<ViewerHost>> ViewerHost::make(const WebServer::Options& options, const Clock& clock) {
     std::unique_ptr<ViewerHost> host(new ViewerHost(clock));
     WebServer::Handlers handlers;
-    // `on` is called with the lock held, on the web server's thread.
+    // Calls `on` with the lock held, on the web server's thread.
     const auto event = [raw = host.get()](auto on) {
         return [raw, on](ViewerId viewer) {
             const std::lock_guard lock(raw->mutex_);
@@ -160,7 +160,7 @@ void ViewerHost::serve() {
     while (!io_.stopped()) {
         try {
             io_.run();
-        } catch (const std::exception& failure) {  // memory; the rest goes on
+        } catch (const std::exception& failure) {  // out of memory; the rest goes on
             spdlog::warn("viewers: {}", failure.what());
         }
     }
@@ -198,7 +198,7 @@ void ViewerHost::picture(FrameNumber frame, std::uint32_t stream, std::shared_pt
 Status ViewerHost::note(NoteTopic topic, FrameNumber frame, Buffer text) {
     if (text.size() > kMaxNoteBytes)
         return fail("Note: {} bytes, the limit is {}", text.size(), kMaxNoteBytes);
-    // It becomes a WebSocket's text or part of a picture's header: what is no JSON would cost us the viewers.
+    // The text becomes a WebSocket's message or part of a picture's header. Viewers would break on bad JSON.
     const auto* const begin = reinterpret_cast<const char*>(text.data());
     if (text.empty() || *begin != '{' || !nlohmann::json::accept(begin, begin + text.size()))
         return fail("Note: not a JSON object");
@@ -261,7 +261,7 @@ void ViewerHost::encode_on_its_thread(EncodePicture&& task) {
             const std::lock_guard lock(mutex_);
             ++encoded_;
             run(viewers_.on_encoded(task.key, message, clock_.now()));
-        } catch (const std::exception& failure) {  // memory
+        } catch (const std::exception& failure) {  // out of memory
             spdlog::warn("a picture for viewers: {}; passed over", failure.what());
             const std::lock_guard lock(mutex_);
             run(viewers_.on_encoded(task.key, nullptr, clock_.now()));
@@ -269,7 +269,7 @@ void ViewerHost::encode_on_its_thread(EncodePicture&& task) {
     });
 }
 
-// Events move the deadline on; the timer runs to the end and looks again.
+// Events move the deadline on without touching the timer, which runs to its end and looks again.
 void ViewerHost::wait_for_deadline() {
     const std::lock_guard lock(mutex_);
     const auto deadline = viewers_.deadline();

@@ -6,8 +6,8 @@
 namespace swath {
 namespace {
 
-// In the order in which they are sent. A newcomer gets the newest of the sticky ones; a trace is for those
-// who are there.
+// In the order in which they are sent. A newcomer gets the newest of each sticky topic; a trace goes only to
+// viewers who are there.
 constexpr NoteTopic kNewestOnly[] = {NoteTopic::kSession, NoteTopic::kObjects, NoteTopic::kState,
                                      NoteTopic::kSpeedup, NoteTopic::kTrace};
 bool sticky(NoteTopic topic) { return topic != NoteTopic::kTrace; }
@@ -106,7 +106,7 @@ Viewers::Actions Viewers::on_picture(FrameNumber frame, std::uint32_t stream,
     completed_ = now;
     rested_ = false;
     Stream& of = streams_[stream];
-    // Frames may overtake each other; what is older than the newest is of no use.
+    // Frames may overtake each other; an older one is of no use.
     if (!of.frame || *of.frame < frame) {
         of.frame = frame;
         of.picture = std::move(picture);
@@ -119,10 +119,10 @@ Viewers::Actions Viewers::on_picture(FrameNumber frame, std::uint32_t stream,
 Viewers::Actions Viewers::on_encoded(const PictureKey& key, SharedBytes message, Nanoseconds now) {
     Stream& stream = streams_[key.stream];
     auto& encoding = stream.encoding[index(key.format)];
-    if (encoding != key) return {};  // of a session that is over
+    if (encoding != key) return {};  // from a session that is over
     encoding.reset();
     const bool newest = stream.frame == key.frame;
-    // Meanwhile frames have gone on, and a picture without loss is for those that stay.
+    // The run has gone on, and PNG is only for pictures that stay.
     if (!newest && key.format == ViewFormat::kPng) return settle(now);
     if (newest) stream.encoded[index(key.format)] = message;
     for (auto& [id, viewer] : viewers_) {
@@ -148,8 +148,7 @@ std::size_t Viewers::waiting_bytes() const {
     return bytes;
 }
 
-// What follows from the state: something to encode for those who can take it, something to write to each who
-// is idle.
+// Acts on the state: encodes pictures for viewers who have room, and writes to each viewer that is idle.
 Viewers::Actions Viewers::settle(Nanoseconds now) {
     Actions actions;
     if (viewers_.empty()) return actions;
@@ -181,15 +180,15 @@ Viewers::Actions Viewers::settle(Nanoseconds now) {
     return actions;
 }
 
-// Whether the viewer has room for the picture now. One to whom another is being written has none: what is the
-// newest then is decided then.
+// True if the viewer has room for the picture. A viewer to whom another is being written has none; the newest
+// picture is chosen when that is done.
 bool Viewers::wants(const Viewer& viewer, const PictureKey& key) {
     const ViewerStream& stream = viewer.streams[key.stream];
     return viewer.writing != Writing::kPicture && stream.unshown.size() < kMaxUnshown &&
            (!stream.given || *stream.given < key);
 }
 
-// What waited before is replaced. A picture that could not be coded (null) is passed over.
+// Replaces the waiting picture. A null message passes over a picture that could not be encoded.
 void Viewers::give(Viewer& viewer, const PictureKey& key, const SharedBytes& message) {
     ViewerStream& stream = viewer.streams[key.stream];
     stream.given = key;

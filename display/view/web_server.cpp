@@ -35,15 +35,15 @@ using boost::system::error_code;
 
 namespace {
 
-// Beyond the limit this many more are heard, so that they can be told; the rest is hung up on.
+// So many connections beyond the limit are still answered with a refusal; others are closed at once.
 constexpr std::size_t kTurnedAway = 32;
-// Of a message handed to the socket at a time; between two of them it is seen whether the viewer takes any.
+// The part of a message that the socket gets at a time. Between parts we see whether the viewer takes any.
 constexpr std::size_t kChunkBytes = std::size_t{64} << 10;
-// What is read, to no end, of a request that was refused before its end.
+// Reads so much at most of a refused request's rest, and ignores it.
 constexpr std::size_t kDrainBytes = std::size_t{256} << 10;
 
-// Wraps a member function of an object that lives while the operation is pending. What memory is short for
-// ends that connection only.
+// Wraps a member function of an object that must live while the operation is pending. If memory runs out,
+// only this connection ends.
 template <class T>
 auto bound(std::shared_ptr<T> self, void (T::*then)(const error_code&, std::size_t)) {
     return [self = std::move(self), then](const error_code& error, std::size_t bytes = 0) {
@@ -92,14 +92,14 @@ class WebServer::Impl {
     std::string url_;
     std::unique_ptr<Listener> listener_;
     std::set<std::shared_ptr<Http>> requests_;
-    std::map<ViewerId, std::shared_ptr<Live>> lives_;  // also those that close or are not yet open
+    std::map<ViewerId, std::shared_ptr<Live>> lives_;  // including those that close or are not yet open
     ViewerId last_viewer_ = 0;
 };
 
-// A connection as long as it speaks HTTP. Owned by the server and its pending operations.
+// A connection that speaks HTTP. The server and its pending operations own it.
 class WebServer::Impl::Http : public std::enable_shared_from_this<Http> {
   public:
-    // One that is turned away gets 503 as its answer.
+    // A connection that is turned away is answered with 503.
     Http(Impl& server, tcp::socket socket, bool turned_away)
         : server_(server), stream_(std::move(socket)), turned_away_(turned_away) {}
 
@@ -111,7 +111,7 @@ class WebServer::Impl::Http : public std::enable_shared_from_this<Http> {
         http::status status = http::status::ok;
         std::string_view content_type = "text/plain; charset=utf-8";
         std::string_view body{};
-        std::string fields{};  // more, each with its end of line
+        std::string fields{};  // more header fields, each with its end of line
     };
 
     void on_head(const error_code& error, std::size_t);
@@ -129,13 +129,13 @@ class WebServer::Impl::Http : public std::enable_shared_from_this<Http> {
     const bool turned_away_;
     beast::flat_buffer buffer_;
     std::optional<http::request_parser<http::empty_body>> parser_;
-    std::string head_;  // of the answer
+    std::string head_;  // the answer's
     bool keep_ = false;
     std::array<char, 4096> unread_{};
     std::size_t drained_ = 0;
 };
 
-// A connection that has asked for a WebSocket. Owned by the server and its pending operations.
+// A connection that has asked for a WebSocket. The server and its pending operations own it.
 class WebServer::Impl::Live : public std::enable_shared_from_this<Live> {
   public:
     Live(Impl& server, beast::tcp_stream stream, ViewerId id)
@@ -157,17 +157,15 @@ class WebServer::Impl::Live : public std::enable_shared_from_this<Live> {
     void leave();
 
     Impl& server_;
-    websocket::stream<beast::tcp_stream, false> socket_;  // without compression: pictures have theirs
-    asio::steady_timer patience_;                         // for a chunk to be written
+    websocket::stream<beast::tcp_stream, false> socket_;  // without compression: pictures have their own
+    asio::steady_timer patience_;                         // runs while a chunk is written
     const ViewerId id_;
     bool joined_ = false;
     bool closing_ = false;
     beast::flat_buffer buffer_;
-    SharedBytes message_;  // is being written
+    SharedBytes message_;  // being written
     std::size_t written_ = 0;
 };
-
-// HTTP ------------------------------------------------------------------------------------------------------
 
 void WebServer::Impl::Http::read_head() {
     parser_.emplace();
@@ -186,7 +184,7 @@ void WebServer::Impl::Http::on_head(const error_code& error, std::size_t) {
     if (error == http::error::end_of_stream || error == http::error::partial_message) return end();
     if (error.category() == http::make_error_code(http::error::bad_method).category())
         return refuse(http::status::bad_request, "this is not HTTP");
-    if (error) return end();  // it has gone, or the time is up
+    if (error) return end();  // it has gone, or time is up
     answer();
 }
 
@@ -225,7 +223,7 @@ void WebServer::Impl::Http::answer_get(const Visitor& visitor) {
 }
 
 void WebServer::Impl::Http::upgrade(const Visitor& visitor) {
-    // Nothing may come behind the head until the upgrade is answered.
+    // Nothing may follow the head until the upgrade is answered.
     if (!websocket::is_upgrade(parser_->get()) || buffer_.size() > 0)
         return refuse(http::status::upgrade_required, "this is for a WebSocket", "Upgrade: websocket\r\n");
     if (const auto why = Admission::upgrade_refusal(visitor); !why.empty())
@@ -240,7 +238,7 @@ void WebServer::Impl::Http::upgrade(const Visitor& visitor) {
     server_.requests_.erase(shared_from_this());
 }
 
-// Says why, and closes: what else is on its way belongs to a request that we do not understand or want.
+// Says why, and closes: we do not understand or want the rest of the request.
 void WebServer::Impl::Http::refuse(http::status status, std::string_view why, std::string fields) {
     keep_ = false;
     const std::string line = fmt::format("{}\n", why);
@@ -258,7 +256,7 @@ void WebServer::Impl::Http::send(const Answer& answer) {
         answer.content_type, answer.body.size(), keep_ ? "keep-alive" : "close", answer.fields);
     const bool body = !parser_->is_header_done() || parser_->get().method() != http::verb::head;
     if (body && answer.status != http::status::ok) head_ += answer.body;
-    // Pages lie in the program: they are sent from there.
+    // Pages are part of the program: they are sent from there without a copy.
     const std::string_view page =
         body && answer.status == http::status::ok ? answer.body : std::string_view();
     const std::array<asio::const_buffer, 2> buffers{asio::buffer(head_),
@@ -276,7 +274,8 @@ void WebServer::Impl::Http::on_sent(const error_code& error, std::size_t) {
     drain();
 }
 
-// Closing a socket with unread bytes resets the connection, and that can overtake the answer.
+// Reads what is left. To close a socket with unread bytes resets the connection, which can overtake the
+// answer.
 void WebServer::Impl::Http::drain() {
     stream_.async_read_some(asio::buffer(unread_), bound(shared_from_this(), &Http::on_drained));
 }
@@ -292,8 +291,6 @@ void WebServer::Impl::Http::end() {
     server_.requests_.erase(shared_from_this());
 }
 
-// WebSocket -------------------------------------------------------------------------------------------------
-
 void WebServer::Impl::Live::accept(const http::request<http::empty_body>& request) {
     websocket::stream_base::timeout timeout{};
     timeout.handshake_timeout = server_.limits_.head_time;
@@ -301,7 +298,7 @@ void WebServer::Impl::Live::accept(const http::request<http::empty_body>& reques
     timeout.keep_alive_pings = true;
     socket_.set_option(timeout);
     socket_.read_message_max(server_.limits_.text_bytes);
-    socket_.auto_fragment(false);  // we do it, in larger pieces
+    socket_.auto_fragment(false);  // because we do it, in larger pieces
     socket_.async_accept(request, bound(shared_from_this(), &Live::on_accepted));
 }
 
@@ -355,7 +352,7 @@ void WebServer::Impl::Live::on_chunk(const error_code& error, std::size_t bytes)
 }
 
 void WebServer::Impl::Live::on_patience(const error_code& stopped, std::size_t) {
-    // The timer may have run out just as the chunk was written.
+    // The timer may run out just as the chunk is written.
     if (!stopped && patience_.expiry() <= asio::steady_timer::clock_type::now()) end();
 }
 
@@ -375,8 +372,6 @@ void WebServer::Impl::Live::end() {
     beast::get_lowest_layer(socket_).close();
     server_.lives_.erase(id_);
 }
-
-// The server ------------------------------------------------------------------------------------------------
 
 Status WebServer::Impl::listen(const Address& wanted, const std::optional<Address>& published) {
     error_code error;

@@ -1,5 +1,5 @@
-// One frame as stacked bars, a bar for each machine, like Samanta 2000, figure 8: what it spent on each
-// phase, and over it in outline what was predicted. With two streams two groups of bars on one scale.
+// One frame as stacked bars, one for each machine, as in Samanta 2000, figure 8: the time of each phase, and
+// in outline over it the prediction. Two streams are two groups of bars on one scale.
 
 import {Chart, nice_step} from './chart.js';
 import {css_colour, server_colour} from './colours.js';
@@ -9,10 +9,10 @@ import {by_phase, is_wait, kPhases, phase_colour, server_number} from './phases.
 const kLeft = 34;
 const kBottom = 18;
 const kTop = 8;
-const kTallEnough = 5;  // for a mark of its own
+const kTallEnough = 5;  // to get a mark
 
-// Measured and predicted of a `frame` note's machines: [{name, measured, predicted}], both Maps of phase to
-// ms without waits; predicted is null while nobody knows.
+// Measured and predicted times of a `frame` note's machines: [{name, measured, predicted}]. Both are Maps of
+// phase to ms without waits; predicted is null while nobody knows.
 export function costs(frame) {
     const predictions = new Map(frame.prediction?.machines?.map(({name, phases}) => [name, phases]) ?? []);
     return frame.machines.map(({name, spans, counters}) => {
@@ -37,7 +37,7 @@ export class Bars {
     #chart;
     #tip;
     #frames = [];
-    #top = 1;    // of the scale, ms
+    #top = 1;    // end of the scale, ms
     #drawn = [];  // {left, right, cost} of each bar
 
     constructor(canvas, tip) {
@@ -46,7 +46,7 @@ export class Bars {
         tip.attach(canvas, (event) => this.#hover(event));
     }
 
-    // The newest `frame` note of each stream.
+    // Takes the newest `frame` note of each stream.
     show(frames) {
         this.#frames = frames.map((frame) => ({frame, costs: costs(frame)}));
         this.#chart.redraw();
@@ -102,7 +102,7 @@ export class Bars {
             const base = y(sum);
             const top = y(sum += part);
             context.fillStyle = theme(phase_colour(phase));
-            // A gap of the paper's colour between parts that are tall enough to spare it.
+            // A part that is tall enough has a gap of the paper's colour above it.
             context.fillRect(begin, top, thickness, Math.max(base - top - (base - top > 3 ? 1 : 0), 0.5));
         }
         if (cost.predicted) {
@@ -157,6 +157,6 @@ function extra(phase, cpu, predicted) {
 }
 
 export function in_order(phases) {
-    const place = (phase) => (kPhases.indexOf(phase) + 100) % 100;  // what is unknown goes last
+    const place = (phase) => (kPhases.indexOf(phase) + 100) % 100;  // unknown phases go last
     return [...phases].sort(([a], [b]) => place(a) - place(b));
 }

@@ -1,9 +1,9 @@
 // Cameras as values. A camera is {eye, target, up, fov}: points and a direction in model space as arrays of
 // three, and the vertical angle in degrees. Every function here returns a new one.
 //
-// Steering is a turntable: the eye goes around the target about `up`, which stays what it was, and stops
-// short of the poles, so that nothing can flip. Positions in the picture are {x, y} from its centre, in half
-// picture heights, y up.
+// Steering is a turntable: the eye goes around the target about `up`, which stays, and stops short of the
+// poles, so that nothing can flip. Positions in the picture are {x, y} from its centre, in half picture
+// heights, y up.
 
 import {add, cross, dot, length, normalize, scale, subtract} from './vector.js';
 
@@ -22,7 +22,7 @@ export function from_numbers(numbers) {
     };
 }
 
-// Rounded to single precision, as the programs compute: a camera file with these numbers is this camera.
+// Rounds to single precision, in which the programs compute: a camera file with these numbers is this camera.
 export function to_numbers(camera) {
     return [...camera.eye, ...camera.target, ...camera.up, camera.fov].map(Math.fround);
 }
@@ -41,12 +41,13 @@ export function float_text(value) {
     return String(Number(wanted.toPrecision(9)));
 }
 
-// One line of a camera file.
+// Writes one line of a camera file.
 export function camera_text(numbers) {
     return numbers.map(float_text).join(' ') + '\n';
 }
 
-// How close, how far and where to a camera of this model may go. `bounds` is min and max, six numbers.
+// The limits for a camera of this model: how close, how far, and how far off. `bounds` is min and max, six
+// numbers.
 export function limits(bounds) {
     const low = bounds.slice(0, 3);
     const high = bounds.slice(3, 6);
@@ -77,7 +78,7 @@ function axes(camera) {
     return {right, up: cross(right, into), into};
 }
 
-// The eye goes around the target, by radians: `across` to its left, so that the model turns to the right,
+// Moves the eye around the target, by radians: `across` to its left, so that the model turns to the right,
 // and `upwards`.
 export function orbit(camera, across, upwards) {
     const pole = normalize(camera.up);
@@ -85,7 +86,7 @@ export function orbit(camera, across, upwards) {
     const radius = length(towards);
     const sine = Math.min(Math.max(dot(towards, pole) / radius, -1), 1);
     const before = Math.asin(sine);
-    // A camera from elsewhere may look from higher than this goes; it may only come down.
+    // A camera from elsewhere may look from higher than `kHighest`; it may only come down.
     const highest = Math.max(kHighest, Math.abs(before));
     const elevation = Math.min(Math.max(before + upwards, -highest), highest);
     const {right} = axes(camera);
@@ -95,19 +96,19 @@ export function orbit(camera, across, upwards) {
     return {...camera, eye: add(camera.target, scale(around, radius))};
 }
 
-// Moves the camera so that what is at the target's distance moves by `x`, `y` in the picture.
+// Moves the camera so that points at the target's distance move by `x`, `y` in the picture.
 export function pan(camera, x, y, within) {
     const {right, up} = axes(camera);
     const unit = distance(camera) * half_height(camera);
     return shifted(camera, add(scale(right, -x * unit), scale(up, -y * unit)), within);
 }
 
-// The target becomes the point that is seen at `at`, as far away as the target is.
+// Makes the point that is seen at `at`, as far away as the target, the new target.
 export function centre(camera, at, within) {
     return pan(camera, -at.x, -at.y, within);
 }
 
-// The distance becomes `factor` times as long, within the limits. What is seen at `at`, as far away as the
+// Multiplies the distance by `factor`, within the limits. The point that is seen at `at`, as far away as the
 // target, stays there.
 export function dolly(camera, factor, at, within) {
     const before = distance(camera);
@@ -123,7 +124,7 @@ function shifted(camera, by, within) {
     return strayed({...camera, eye: add(camera.eye, by), target: add(camera.target, by)}, within);
 }
 
-// Keeps the target near the model: who lost it out of sight finds it again.
+// Keeps the target near the model, so that people do not lose it.
 function strayed(camera, within) {
     const off = subtract(camera.target, within.centre);
     const far = length(off);

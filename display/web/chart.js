@@ -1,4 +1,4 @@
-// What all charts share: a canvas that is crisp at any pixel ratio, redrawn when its size, its data or the
+// The base of all charts: a canvas that is crisp at any pixel ratio, redrawn when its size, its data or the
 // colour scheme changes, at most once per animation frame and only while it can be seen.
 
 export class Chart {
@@ -7,7 +7,8 @@ export class Chart {
     #scheduled = false;
     #visible = true;
 
-    // `paint(context, width, height, theme)` draws in CSS pixels; `theme(name)` is a custom property's value.
+    // `paint(context, width, height, theme)` draws in CSS pixels; `theme(name)` is the value of a custom
+    // property.
     constructor(canvas, paint) {
         this.#canvas = canvas;
         this.#paint = paint;
@@ -53,7 +54,7 @@ export class Chart {
     }
 }
 
-// Steps of 1, 2 or 5 times a power of ten, so that about `count` of them make `span`.
+// A step of 1, 2 or 5 times a power of ten, so that about `count` steps make `span`.
 export function nice_step(span, count) {
     const rough = Math.max(span, 1e-9) / Math.max(count, 1);
     const power = 10 ** Math.floor(Math.log10(rough));

@@ -1,5 +1,5 @@
-// The colour of a server, the same as in the simulator's pictures: steps of the plastic number's sequence
-// through hue and lightness in Bjoern Ottosson's OKLCH, so that neighbours differ however many there are.
+// The colour of a server, as in the simulator's pictures: steps of the plastic number's sequence through hue
+// and lightness in Björn Ottosson's OKLCH, so that neighbours differ however many there are.
 
 export function server_colour(id) {
     const step = (part) => (0.5 + part * id) % 1;
@@ -10,7 +10,7 @@ export function css_colour([red, green, blue], opacity = 1) {
     return `rgb(${red} ${green} ${blue} / ${opacity})`;
 }
 
-// Black or white, whichever reads better on the colour (WCAG's contrast).
+// Black or white, whichever reads better on the colour (by WCAG's contrast).
 export function ink_on(rgb) {
     const [r, g, b] = rgb.map((byte) => {
         const v = byte / 255;

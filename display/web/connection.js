@@ -1,9 +1,9 @@
-// The WebSocket to the display: kept open, and opened again when it is lost.
+// The WebSocket to the display: opened again whenever it is lost.
 
 const kFirstRetryMs = 250;
 const kLongestRetryMs = 4000;
 
-// A binary message: {header, bytes}, or null if it is not one.
+// Parses a binary message: {header, bytes}, or null if it is none.
 export function parse_picture(buffer) {
     if (!(buffer instanceof ArrayBuffer) || buffer.byteLength < 4) return null;
     const size = new DataView(buffer).getUint32(0, true);
@@ -23,7 +23,7 @@ function parse_object(text) {
     }
 }
 
-// Calls back with on.open(), on.lost(seconds until the next try), on.note(object), on.picture(header, bytes).
+// Calls on.open(), on.lost(seconds until the next try), on.note(object), on.picture(header, bytes).
 export class Connection {
     #url;
     #on;
@@ -40,7 +40,7 @@ export class Connection {
         this.#open();
     }
 
-    // Dropped while there is no connection: whoever gets a new one says everything anew.
+    // Drops the object while there is no connection: after a new one the page says everything anew.
     send(object) {
         if (this.#socket?.readyState !== WebSocket.OPEN) return false;
         this.#socket.send(JSON.stringify(object));

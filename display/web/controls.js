@@ -1,5 +1,5 @@
-// The controls of a run: what can be chosen, what is chosen, and for what cannot be had the reason. Asks
-// nobody: shows what it is given and says what the person changes.
+// The controls of a run: the choices, the values, and for each choice that cannot be had the reason. It only
+// shows what it is given and reports what the person changes.
 
 import {whole} from './format.js';
 
@@ -13,11 +13,11 @@ const kNames = {
 const kRenderers = ['osmesa', 'egl', 'raycast'];
 const kSizes = [[640, 480], [1280, 960], [1920, 1080]];
 const kSelects = ['algorithm', 'against', 'objects', 'size', 'renderer', 'cull', 'path'];
-const kNone = '';  // the value of an option that stands for null
+const kNone = '';  // the value of the option that stands for null
 
 export class Controls {
     #elements = {};
-    #reasons = new Map();  // field to why it could not be had
+    #reasons = new Map();  // field to the reason why it could not be had
     #on_change;
     size = 'window';
 
@@ -30,14 +30,14 @@ export class Controls {
         }
     }
 
-    // A field of the wish that was refused: the reason stays until the person chooses anew.
+    // Shows why a field of the wish was refused, until the person chooses anew.
     refuse(field, reason) {
         this.#reasons.set(['width', 'height'].includes(field) ? 'size' : field, String(reason));
     }
 
     forget() { this.#reasons.clear(); }
 
-    // `values` is the wish or the state that counts, `why` the reason why nothing can be chosen, or ''.
+    // `values` is the wish or the state that counts; `why` says why nothing can be chosen, or is ''.
     update(session, values, why) {
         const choices = session?.choices ?? {};
         const many = session?.servers?.length ?? 1;
@@ -52,7 +52,7 @@ export class Controls {
             option(String(count), `about ${whole(count)}`)), String(values.objects ?? ''));
         const renderers = [...new Set([...(choices.renderers ?? []), ...kRenderers])];
         this.#fill('renderer', renderers.map((name) =>
-            option(name, name.split(',').map((one) => kNames[one] ?? one).join(', '),  // servers in turn
+            option(name, name.split(',').map((one) => kNames[one] ?? one).join(', '),  // for servers in turn
                    choices.renderers?.includes(name) ? '' : 'not in this build')),
                    values.renderer);
         this.#fill('cull', (choices.culls ?? []).map((name) => option(name)), values.cull);
@@ -95,7 +95,7 @@ export class Controls {
         this.#elements.servers.setAttribute('aria-valuetext', text);
     }
 
-    // Options change only where they differ, so that an open list stays open.
+    // Replaces options only if they differ, so that an open list stays open.
     #fill(field, options, value) {
         const element = this.#elements[field];
         const key = JSON.stringify(options);
@@ -116,7 +116,7 @@ export class Controls {
         this.#reasons.delete(field);
         if (field === 'size') this.size = value;
         if (field === 'servers') this.#show_servers(this.#elements.servers.max);
-        // As far as it goes means all servers, also those that will come.
+        // The right end means all servers, including those that will come.
         const all = field === 'servers' && value === this.#elements.servers.max;
         const numeric = field === 'servers' || field === 'objects';
         this.#on_change(field, all || value === kNone ? null : numeric ? Number(value) : value);

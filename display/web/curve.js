@@ -1,5 +1,5 @@
-// Speed-ups over the number of servers: measured by frame time and by the CPU time of the busiest server,
-// predicted, and ideal. And the small curve of the lag.
+// Speed-ups by number of servers: measured by frame time and by the CPU time of the busiest server,
+// predicted, and ideal. Also the small curve of the lag.
 
 import {Chart, nice_step} from './chart.js';
 import {decimal, plural, times} from './format.js';
@@ -15,7 +15,7 @@ export const kSeries = [
     {name: 'predicted', field: 'predicted', colour: '--curve-predicted', shape: 'diamond', line: [4, 3]},
 ];
 
-// The quotient by the point with one server, where both are known.
+// The quotient by the point with one server, if both are known.
 export function speedups(points, field) {
     const one = points.find(({servers}) => servers === 1)?.[field];
     if (!(one > 0)) return [];
@@ -37,7 +37,7 @@ export class Curve {
         tip.attach(canvas, (event) => this.#hover(event));
     }
 
-    // How many there are: as far as the axis reaches from the beginning.
+    // The number of servers in the run: the axis always reaches that far.
     set servers(count) {
         this.#servers = count;
         this.#chart.redraw();

@@ -4,7 +4,7 @@ const kWhole = new Intl.NumberFormat('en', {maximumFractionDigits: 0});
 
 export const whole = (value) => kWhole.format(value);
 
-// Three figures or so: 0.04, 1.23, 12.3, 123.
+// About three figures: 0.04, 1.23, 12.3, 123.
 export function decimal(value) {
     if (!Number.isFinite(value)) return '–';
     const size = Math.abs(value);

@@ -7,11 +7,11 @@ import {median, ms} from './format.js';
 import {critical_text, is_wait, phase_colour, server_number} from './phases.js';
 
 const kFramesKept = 160;
-const kRedrawMs = 60;  // between frames that come by themselves
-const kLines = 3;  // of a row; frames in flight beyond that share
+const kRedrawMs = 60;  // while frames come
+const kLines = 3;  // in a row; more frames in flight share lines
 const kGutter = 62;
 const kAxis = 18;
-const kOfWindow = 0.24;  // the most of its height
+const kOfWindow = 0.24;  // at most this part of the window's height
 const kRow = 17;
 const kSmallestRow = 4;
 const kFramesInView = 4;
@@ -22,11 +22,11 @@ export class Gantt {
     #chart;
     #tip;
     #frames = [];
-    #line_ends = new Map();  // machine to when each of its lines is free
+    #line_ends = new Map();  // machine to the times at which its lines are free
     #span = null;            // ms in view; null: follows the frames
     #end = null;             // right edge on the client's clock; null: follows the newest frame
     #auto_span = 100;
-    #drawn = [];             // {left, top, right, bottom, span, machine, frame} of what is on the canvas
+    #drawn = [];             // {left, top, right, bottom, span, machine, frame} of everything on the canvas
     #on_change;
     #machines = 6;
     #timer = null;
@@ -42,7 +42,7 @@ export class Gantt {
     get frames() { return this.#frames; }
 
     add(frame) {
-        const lines = this.#lines_of(frame);  // known for those after it, even if it is not kept
+        const lines = this.#lines_of(frame);  // later frames need these, even if this one is not kept
         if (this.paused && this.#frames.length >= 2 * kFramesKept) return;
         this.#frames.push({...frame, lines, ...extent(frame.machines)});
         if (this.#frames.length > kFramesKept && !this.paused)
@@ -60,8 +60,8 @@ export class Gantt {
         this.#chart.redraw();
     }
 
-    // How many machines there are: the height goes by it and not by who took part in the last frames, since
-    // what it leaves is the picture's.
+    // The number of machines decides the height, not the number that took part in the last frames: the
+    // picture gets the rest of the window, and must not move.
     set machines(count) {
         this.#machines = count;
         this.#fit();
@@ -69,13 +69,13 @@ export class Gantt {
 
     pause(on) {
         this.#end = on ? this.#newest_end() : null;
-        // What came meanwhile and is too old now.
+        // Drops frames that came during the pause and are too old now.
         if (!on) this.#frames.splice(0, Math.max(0, this.#frames.length - kFramesKept));
         this.#fit();
         this.#on_change();
     }
 
-    // `factor` < 1 shows less time. `about` is the part of the width that stays where it is.
+    // `factor` < 1 shows less time. `about` is the part of the width that stays in place.
     zoom(factor, about = 1) {
         const before = this.#view();
         this.#span = Math.min(Math.max((before.end - before.begin) * factor, kShortestView), kLongestView);
@@ -108,7 +108,7 @@ export class Gantt {
         return {begin: end - span, end};
     }
 
-    // A frame goes on the first of its machine's lines that is free when it begins there.
+    // Puts a frame on the first of each machine's lines that is free when it begins there.
     #lines_of(frame) {
         return new Map(frame.machines.filter(({spans}) => spans.length > 0).map(({name, spans}) => {
             const begin = Math.min(...spans.map((span) => span.begin));
@@ -128,7 +128,7 @@ export class Gantt {
         if (newest && !this.paused) {
             const pace = median(recent.map(({interval}) => interval).filter(Number.isFinite));
             const wanted = Math.max(kFramesInView * (pace || 0), 1.2 * (newest.end - newest.begin), 1);
-            // Steps, so that the scale stands still while frames vary.
+            // The scale goes in steps, so that it stands still while frames vary.
             if (wanted > this.#auto_span || wanted < 0.4 * this.#auto_span)
                 this.#auto_span = nice_step(wanted, 1);
         }
@@ -213,7 +213,7 @@ export class Gantt {
         context.fillText('ms', 4, kAxis / 2);
     }
 
-    // Parts that follow one another on a machine have one outline, so that short ones are not all outline.
+    // Adjacent parts on one machine share an outline: short ones would be all outline.
     #paint_critical(context, theme, shown) {
         const newest = [0, 1].map((stream) => shown.findLast((frame) => frame.stream === stream));
         context.strokeStyle = theme('--text');
@@ -288,7 +288,7 @@ export class Gantt {
                 return this.#move(event.deltaX * per_pixel());
             const about = (event.offsetX - kGutter) / Math.max(canvas.clientWidth - kGutter, 1);
             const factor = Math.exp(Math.min(Math.max(event.deltaY * 0.0015, -1), 1));
-            // At the newest end it goes on following.
+            // At the newest end the chart goes on following.
             this.zoom(factor, this.paused || about < 0.9 ? Math.min(Math.max(about, 0), 0.999) : 1);
         }, {passive: false});
         canvas.addEventListener('keydown', (event) => {
@@ -322,7 +322,7 @@ export class Gantt {
     }
 }
 
-// The way of a frame in words, with what it took; '' where it is not known.
+// The critical path of a frame in words, with its time; '' if it is not known.
 export function critical_summary(frame, least = 0) {
     if (!frame?.critical?.length) return '';
     const took = frame.critical.at(-1).end - frame.critical[0].begin;
@@ -337,7 +337,7 @@ function extent(machines) {
     };
 }
 
-// Thinner than work: with several frames in flight there is a lot of waiting that holds up nobody.
+// Waits are thinner than work: with several frames in flight there are many that hold up nobody.
 function paint_wait(context, {left, right, top, bottom}, theme, pattern) {
     const high = bottom - top;
     const thin = Math.max(0.5 * high, Math.min(high, 1.5));

@@ -1,8 +1,8 @@
-// What overlays need to know of boxes and rectangles. Points in the picture are in pixels, y going up; a
-// rectangle is [x0, y0, x1, y1], the last two exclusive. `clip` is the plan's: 16 numbers, by columns.
+// Boxes and rectangles for overlays. Points in the picture are in pixels, y going up; a rectangle is [x0, y0,
+// x1, y1], the last two exclusive. `clip` is the plan's: 16 numbers, by columns.
 
 const kCorners = [0, 1, 2, 3, 4, 5, 6, 7];
-// A bit for each axis: set where the corner lies at the box's max.
+// A bit for each axis is set if the corner lies at the box's max.
 const kEdges = kCorners.flatMap((corner) =>
     [1, 2, 4].filter((axis) => !(corner & axis)).map((axis) => [corner, corner | axis]));
 
@@ -15,9 +15,8 @@ export function to_clip(clip, x, y, z) {
     ];
 }
 
-// The part of a line between two points in clip space that is inside the frustum, in pixels:
-// [x0, y0, x1, y1], or null. Cut before the division, so that what lies behind the eye cannot come out in
-// front of it.
+// The part of a line between two points in clip space that is inside the frustum, in pixels: [x0, y0, x1,
+// y1], or null. It is cut before the division, so that nothing behind the eye comes out in front of it.
 export function visible_segment(a, b, width, height) {
     let first = 0;
     let last = 1;
@@ -40,15 +39,16 @@ export function visible_segment(a, b, width, height) {
     return segment;
 }
 
-// Where boxes are at a pose of 0 to 1: flat lists of (min, max) at pose 0 and at pose 1; without the second
+// The boxes at a pose of 0 to 1, from flat lists of (min, max) at pose 0 and at pose 1. Without the second
 // nothing moves.
 export function boxes_at(boxes, end_boxes, pose) {
     if (!end_boxes || !(pose > 0)) return boxes;
     return boxes.map((from, i) => from + pose * (end_boxes[i] - from));
 }
 
-// Box number `id` of a flat list of (min, max): {edges, depth}, where edges has five numbers for each that is
-// seen, its segment and its place among the twelve, and depth is that of the centre; null if nothing is seen.
+// Box number `id` of a flat list of (min, max), as {edges, depth}, or null if nothing of it is seen. edges
+// has five numbers for each visible edge: its segment, and its number among the twelve. depth is the
+// centre's.
 export function wireframe(boxes, id, clip, width, height) {
     const at = 6 * id;
     let inside = true;
@@ -92,7 +92,7 @@ export function hull(points) {
     return [...chain(sorted), ...chain(sorted.reverse())];
 }
 
-// A flat list of rectangles, one by one.
+// Splits a flat list of rectangles.
 export function rectangles(flat) {
     const list = [];
     for (let i = 0; i + 3 < flat.length; i += 4) list.push(flat.slice(i, i + 4));
@@ -103,14 +103,14 @@ export function area(flat) {
     return rectangles(flat).reduce((sum, [x0, y0, x1, y1]) => sum + (x1 - x0) * (y1 - y0), 0);
 }
 
-// Object ids from a group of the plan: the first, then each less the one before.
+// Decodes the object ids of a plan's group: the first, then the difference of each to the one before.
 export function group_ids(deltas) {
     let id = 0;
     return deltas.map((delta) => id += delta);
 }
 
-// The parts of a region's outline that have foreign pixels beyond them: [x0, y0, x1, y1] each, of the given
-// thickness, inside the region. Edges of the screen have nobody beyond them.
+// The parts of a region's outline with foreign pixels beyond them: [x0, y0, x1, y1] each, of the given
+// thickness, inside the region. The screen's edges have nothing beyond them.
 export function borders(flat, width, height, thickness) {
     const all = rectangles(flat);
     const parts = [];
@@ -134,7 +134,7 @@ export function borders(flat, width, height, thickness) {
     return parts;
 }
 
-// What of [from, to) none of the intervals covers.
+// The parts of [from, to) that no interval covers.
 function without(from, to, covered) {
     const left = [];
     for (const [begin, end] of covered.sort((a, b) => a[0] - b[0])) {
@@ -145,7 +145,7 @@ function without(from, to, covered) {
     return left;
 }
 
-// Whose tile has the pixel; -1 if nobody's.
+// The number of the server whose tile has the pixel; -1 if none.
 export function owner_at(tiles, x, y) {
     return tiles.findIndex((flat) =>
         rectangles(flat).some(([x0, y0, x1, y1]) => x >= x0 && x < x1 && y >= y0 && y < y1));

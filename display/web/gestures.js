@@ -1,6 +1,6 @@
-// Mouse, touch and keys on a picture, as steps of the camera. Knows no camera and no wish.
+// Turns mouse, touch and keys on a picture into steps of the camera. Knows no camera and no wish.
 
-const kTurnPerHeight = Math.PI;  // radians that a drag over the whole height turns
+const kTurnPerHeight = Math.PI;  // radians of a drag over the whole height
 const kTurnPerKey = Math.PI / 36;
 const kPanPerKey = 0.1;  // of half the height
 const kZoomPerKey = 0.87;
@@ -10,8 +10,8 @@ const kPixelsPerLine = 20;
 
 // Steps, each with the event's time: on.orbit(across, upwards, time) in radians, on.pan(x, y, time) and
 // on.dolly(factor, at, time), on.centre(at, time) with positions as in camera.js. `area` takes the events,
-// `canvas` is where the picture lies. on.hover(x, y) gets a mouse's place on the page, on.hover(null) its
-// leave.
+// `canvas` has the picture. on.hover(x, y) gets the mouse's position on the page, on.hover(null) says that it
+// left.
 export function attach_gestures(area, canvas, on) {
     const pointers = new Map();  // id to {x, y, panning}
 
@@ -77,13 +77,13 @@ export function attach_gestures(area, canvas, on) {
     }, {passive: false});
 }
 
-// A key as a step of the camera; whether it was one.
+// Steers by a key; returns false if the key is for something else.
 export function steer_by_key(event, on) {
     const time = event.timeStamp;
     const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
     const arrow = arrows[event.key];
     if (arrow && event.shiftKey) on.pan(arrow[0] * kPanPerKey, arrow[1] * kPanPerKey, time);
-    // The model turns the way that the arrow points, as it does under the mouse.
+    // The model turns in the arrow's direction, as it does under the mouse.
     else if (arrow) on.orbit(arrow[0] * kTurnPerKey, -arrow[1] * kTurnPerKey, time);
     else if (event.key === '+' || event.key === '=') on.dolly(kZoomPerKey, {x: 0, y: 0}, time);
     else if (event.key === '-' || event.key === '_') on.dolly(1 / kZoomPerKey, {x: 0, y: 0}, time);

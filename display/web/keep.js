@@ -1,4 +1,4 @@
-// Things to take along: files and the clipboard.
+// Downloads and the clipboard.
 
 export function save(name, parts, type) {
     const url = URL.createObjectURL(new Blob(parts, {type}));
@@ -6,11 +6,11 @@ export function save(name, parts, type) {
     link.href = url;
     link.download = name;
     link.click();
-    // The download has its own hold on the bytes once it has begun.
+    // Once begun, the download has its own hold on the bytes.
     setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
 
-// The clipboard is there in secure contexts only, which a page from another machine is not.
+// The clipboard exists in secure contexts only, and a page from another machine is none.
 export async function copy(field) {
     try {
         await navigator.clipboard.writeText(field.value);

@@ -1,4 +1,4 @@
-// The viewer: what it knows, and who is told when that changes. docs/viewer.md says what comes and goes.
+// The viewer's state, and who is told when it changes. docs/viewer.md says which messages come and go.
 
 import {Bars} from './bars.js';
 import * as cameras from './camera.js';
@@ -16,12 +16,12 @@ import {Stage} from './stage.js';
 import {Tip} from './tip.js';
 import {Wishes} from './wishes.js';
 
-const kResizeRestMs = 150;   // before a new size is asked for
-const kPanelMs = 160;        // between two updates of numbers and bars, so that they can be read
+const kResizeRestMs = 150;   // before it asks for a new size
+const kPanelMs = 160;        // between two updates of numbers and bars, so that people can read them
 const kStateWaitMs = 300;    // for a `state` note before the page starts from what it knows
 const kHintMs = 2500;
 const kRateWindowMs = 1500;
-const kLeastNamed = 0.02;    // of the critical path
+const kLeastNamed = 0.02;    // share of the critical path
 
 const at = (id) => document.getElementById(id);
 
@@ -35,7 +35,7 @@ const now = {
     speedup: null,
     frames: [null, null],
     compared: null,  // the newest `frame` note with other algorithms
-    leading: false,  // this page's wishes count: it has taken over what counted before
+    leading: false,  // this page's wishes count, since it has adopted the state
     trace_wanted: false,
 };
 
@@ -55,7 +55,7 @@ const curve = new Curve(at('curve'), tip);
 const lag_curve = new Sparkline(at('lag-curve'));
 const controls = new Controls((field, value) => {
     if (field === 'size') return wish_size();
-    // Who stops a path goes on from where it is.
+    // After a path steering goes on from the path's camera.
     if (field === 'path' && value === null) wishes.look(current_camera());
     wishes.set({[field]: value});
     if (field === 'algorithm' && value === wishes.want.against) wishes.set({against: null});
@@ -74,7 +74,7 @@ const connection = new Connection(
             refresh();
         },
         note: (note) => {
-            // A note that is not what it should be must not stop those after it.
+            // A bad note must not stop those after it.
             try {
                 kNotes[note.type]?.(note);
             } catch (error) {
@@ -85,21 +85,21 @@ const connection = new Connection(
             stage.stream(header.stream).receive({...header, plan: read_plan(header.plan)}, bytes),
     });
 
-// --- Who steers ---
+// --- Steering ---
 
 function leads() {
     const {audience, session} = now;
     return Boolean(audience && audience.you === audience.lead && audience.session && session?.live);
 }
 
-// Where the picture is now: what this page wants, or what was drawn while a path plays.
+// The camera of the picture: this page's wish, or the last frame's while a path plays.
 function current_camera() {
     const drawn = stage.stream(0).plan?.camera;
     if (wishes.want.path && cameras.is_camera(drawn)) return cameras.from_numbers(drawn);
     return wishes.camera;
 }
 
-// Takes over what counts, so that nothing jumps, and asks for pictures of this window's size.
+// Adopts the state, so that nothing jumps, and asks for pictures of this window's size.
 function take_over() {
     clearTimeout(now.take_over_timer);
     if (now.leading || !leads()) return;
@@ -170,7 +170,7 @@ function why_not_steered() {
     return '';
 }
 
-// --- What comes ---
+// --- Notes ---
 
 const kNotes = {
     audience: (note) => {
@@ -182,7 +182,7 @@ const kNotes = {
         refresh();
     },
     session: (note) => {
-        // The same run goes on, with other servers or after a lost connection; another one begins anew.
+        // The same run goes on with other servers or after a lost connection. Another one begins anew.
         if (now.session && !same_run(now.session, note)) forget_session();
         now.session = note;
         stage.background = note.background;
@@ -199,7 +199,7 @@ const kNotes = {
         if (leads() && !now.leading) take_over();
         if (note.by === now.audience?.you)
             for (const [field, reason] of Object.entries(note.refused ?? {})) {
-                // Unless the person has chosen anew since.
+                // The person may have chosen anew since.
                 if (wishes.since(field) > note.wish) continue;
                 if (!['camera', 'width', 'height'].includes(field)) wishes.want[field] = note[field];
                 controls.refuse(field, reason);
@@ -354,7 +354,7 @@ function refresh() {
     stage.split = Boolean(values.against);
 
     at('model').textContent = session ? `${session.model} · ${compact(session.triangles)} triangles` : '';
-    at('model').title = at('model').textContent;  // whole, where the line is cut
+    at('model').title = at('model').textContent;  // in full, if the line is cut
     document.title = session ? `${session.model} · Swath` : 'Swath';
     at('picture-0').setAttribute('aria-label', session ? `Picture of ${session.model}` : 'Picture');
 
@@ -375,7 +375,7 @@ function refresh() {
     disable(at('copy-command'), command ? '' : 'Not known yet');
 }
 
-// With a reason the button is off, and says why.
+// Disables the button if there is a reason, and shows it.
 function disable(button, why, shown_at = null) {
     button.dataset.title ??= button.title;
     button.disabled = Boolean(why);
@@ -412,7 +412,7 @@ function pause() {
     refresh();
 }
 
-// Of the picture that one sees; before there is one, what is asked for.
+// The camera of the picture, or, before there is one, the one that is asked for.
 const camera_numbers = () => {
     const steered = now.leading && !wishes.want.path ? cameras.to_numbers(wishes.camera) : null;
     return [stage.stream(0).plan?.camera, steered, now.state?.camera, now.session?.home]
@@ -466,7 +466,7 @@ const kKeys = {
 document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (at('help-dialog').open) return;
-    // Where keys mean something of their own they keep it.
+    // Some elements have their own meaning of keys.
     if (event.target.closest('select, input, textarea, .scroll')) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const act = event.shiftKey && key !== '?' ? null : kKeys[key];

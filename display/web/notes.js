@@ -1,5 +1,5 @@
-// Notes as the client writes them, made into what the page works with: short lists get names, lists that are
-// missing are empty. A note that is of no use is null.
+// Makes values for the page of the client's notes: short lists get names, missing lists are empty. A useless
+// note is null.
 
 const kSpan = ['phase', 'begin', 'end', 'cpu'];
 const kCritical = ['machine', 'phase', 'begin', 'end'];

@@ -1,15 +1,15 @@
-// The partition, drawn over a picture as in Samanta 2000, figures 10 and 14 (and in the simulator's studies):
-// the model steps back, tiles are tinted, transferred pixels turn white, boxes are wireframes. Everything
+// Draws the partition over a picture, as in Samanta 2000, figures 10 and 14, and in the simulator's studies:
+// the model is dimmed, tiles are tinted, transferred pixels turn white, boxes are wireframes. Everything
 // follows from the plan and the objects note.
 
 import {css_colour, ink_on, server_colour} from './colours.js';
 import {area, borders, boxes_at, group_ids, hull, rectangles, wireframe} from './geometry.js';
 
-const kDim = 0.4;  // black over the model: 0.6 of its brightness remain
+const kDim = 0.4;  // black over the model, which leaves 0.6 of its brightness
 const kTint = 0.32;
-const kBehind = 0.3;  // what a box leaves of the lines behind it
+const kBehind = 0.3;  // a box leaves this much of the lines behind it
 const kSlices = 24;
-// Boxes: more would hold up the pictures, or the page at all.
+// More boxes would hold up the pictures, or the page itself.
 export const kMostWhileMoving = 4000;
 export const kMostBoxes = 12000;
 const kWhitePerTransfer = 0.45;
@@ -21,19 +21,19 @@ const kNumberSize = 13;  // CSS pixels
 
 export const kLayers = ['tiles', 'groups', 'boxes', 'swaths', 'overlap'];
 
-// For each server its object ids; null where the plan has none.
+// The object ids of each server; null if the plan has none.
 export function groups_of(plan) {
     return plan?.groups?.map((deltas) => deltas ? group_ids(deltas) : []) ?? null;
 }
 
-// The opacity of white on pixels that are transferred so many times.
+// The opacity of white on pixels that are transferred `count` times.
 export function whiteness(count) {
     return kWhitest * (1 - (1 - kWhitePerTransfer) ** count);
 }
 
-// Draws what `show` (a set of layers) names. The canvas has the picture's place on the page and its own
-// number of pixels. `objects` counts only if it is of the plan's generation. `hot` is a server to point out,
-// `at_rest` whether there is time for finer lines.
+// Draws the layers of the set `show`. The canvas lies over the picture and has its own number of pixels.
+// `objects` counts only if it has the plan's generation. `hot` is a server to point out; `at_rest` says
+// whether there is time for finer lines.
 export function draw_overlays(canvas, plan, objects, show, hot = null, at_rest = true) {
     const context = canvas.getContext('2d');
     context.setTransform(1, 0, 0, 1, 0, 0);
@@ -61,7 +61,7 @@ export function draw_overlays(canvas, plan, objects, show, hot = null, at_rest =
     if (hot !== null) draw.outline(hot);
 }
 
-// Object id to the servers that draw it, or null where the plan does not say.
+// A Map of object id to the servers that draw it; null if the plan does not say.
 function servers_by_object(plan) {
     const groups = groups_of(plan);
     if (!groups) return null;
@@ -82,7 +82,7 @@ class Layers {
     #height;
     #plan;
     #at_rest;
-    #per_pixel;  // canvas pixels a picture pixel
+    #per_pixel;  // canvas pixels for a picture pixel
 
     constructor(context, {width, height}, plan, at_rest) {
         this.#to = context;
@@ -105,7 +105,7 @@ class Layers {
         });
     }
 
-    // n times 0.45 white over one another are 1 - 0.55^n; of that 0.9.
+    // n layers of 0.45 white make 1 - 0.55^n; of that 0.9.
     swaths() {
         const layer = this.#layer();
         layer.fillStyle = `rgb(255 255 255 / ${kWhitePerTransfer})`;
@@ -122,9 +122,9 @@ class Layers {
         });
     }
 
-    // Far to near in slices, each fading the lines behind it: one slice a box would be exact, but takes the
-    // browser too long. `colours_of` has a box's colours, which take turns along its edges; nothing if it is
-    // not to be drawn.
+    // Draws from far to near in slices, each of which fades the lines behind it. One slice a box would be
+    // exact, but takes the browser too long. `colours_of` gives a box's colours, which take turns along its
+    // edges; null: the box is not drawn.
     boxes(boxes, colours_of, opacity) {
         const {width, height, clip} = this.#plan;
         const frames = [];
@@ -180,7 +180,7 @@ class Layers {
         }
     }
 
-    // Each server's number in the middle of its largest rectangle: colours alone do not name it.
+    // Writes each server's number into its largest rectangle: colours alone do not name it.
     numbers() {
         const context = this.#to;
         const size = Math.round(kNumberSize * devicePixelRatio);
@@ -217,7 +217,7 @@ class Layers {
         const scale = this.#per_pixel;
         context.beginPath();
         for (const [x0, y0, x1, y1] of list) {
-            // Both ends rounded, so that neighbours leave no seam.
+            // Rounds both ends, so that neighbours leave no seam.
             const left = Math.round(x0 * scale);
             const top = Math.round(this.#height - y1 * scale);
             context.rect(left, top, Math.round(x1 * scale) - left,

@@ -1,4 +1,4 @@
-// What the panel shows of frames, links and speed-ups: charts, the same in tables, and in words.
+// Shows frames, links and speed-ups in the panel: as charts, tables and words.
 
 import {costs, in_order, total} from './bars.js';
 import {css_colour, server_colour} from './colours.js';
@@ -32,7 +32,8 @@ function legend(text, colour, kind = '') {
     return item;
 }
 
-// The newest `frame` note of each stream that is shown; `compared` the newest with other algorithms.
+// Takes the newest `frame` note of each stream that is shown, and in `compared` the newest with other
+// algorithms.
 export function show_frames(frames, compared) {
     const first = frames[0];
     const algorithms = frames.map(({algorithm}) => algorithm).join(' and ');
@@ -76,7 +77,7 @@ export function show_frames(frames, compared) {
 
 const short = (name) => server_number(name) ?? name;
 
-// Ratios are to the algorithm of their note, whatever is in use by now.
+// Ratios are to the algorithm of their note, which may not be the one in use.
 function show_others(note) {
     const others = note?.others ?? [];
     const table = at('predictions');
@@ -95,7 +96,7 @@ function show_others(note) {
     }
 }
 
-// Of each stream that is shown {plan, frame}: what its servers exchange.
+// Shows what servers exchange: {plan, frame} of each stream that is shown.
 export function show_links(streams) {
     const rows = [];
     let sent = 0;

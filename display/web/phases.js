@@ -1,4 +1,4 @@
-// What machines can be doing, in the order of a frame, and how charts show it.
+// The phases of a frame in order, and how charts show them.
 
 export const kPhases = [
     'partition', 'cull', 'render', 'pixel read', 'swap', 'pixel write', 'final read', 'send', 'assemble',
@@ -10,22 +10,22 @@ export const is_wait = (phase) => phase === 'wait';
 // The custom property in style.css that has the phase's colour.
 export const phase_colour = (phase) => `--${kPhases.includes(phase) ? phase.replaceAll(' ', '-') : 'other'}`;
 
-// Milliseconds by phase from spans; `field` is what of a span to add up.
+// Sums up `field` of spans by phase: their milliseconds, or another value.
 export function by_phase(spans, field = ({begin, end}) => end - begin) {
     const sums = new Map();
     for (const span of spans) sums.set(span.phase, (sums.get(span.phase) ?? 0) + field(span));
     return sums;
 }
 
-// The number of a server's machine ("server 3"), or null.
+// The number in a server's name ("server 3"), or null.
 export function server_number(machine) {
     const match = /^server (\d+)$/.exec(machine);
     return match ? Number(match[1]) : null;
 }
 
-// The chain of spans that a picture waited for, in words, with each part's share:
-// "server 2 render 41 % → swap → display assemble". A machine is named where the chain comes to it. Parts
-// smaller than `least` of the whole are left out.
+// The chain of spans that a picture waited for, in words, with each part's share: "server 2 render 41 % →
+// swap → display assemble". A machine is named where the chain comes to it. Parts smaller than `least` of the
+// whole are left out.
 export function critical_text(critical, least = 0) {
     const total = critical.reduce((sum, span) => sum + span.end - span.begin, 0);
     const parts = [];

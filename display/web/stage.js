@@ -1,13 +1,13 @@
-// The place of the pictures: their size on the page and in pixels, what lies over them, and what the pointer
-// is on. One cell for each stream.
+// Lays out the pictures: their size on the page and in pixels, the overlays, and the tip under the pointer.
+// One cell for each stream.
 
 import {compact, plural, times, whole} from './format.js';
 import {area, owner_at} from './geometry.js';
 import {draw_overlays, groups_of, kMostBoxes, kMostWhileMoving} from './overlays.js';
 import {Stream} from './stream.js';
 
-const kSmallest = 16;  // pixels, of a picture that is asked for
-const kMostRows = 14;  // of a tip
+const kSmallest = 16;  // pixels of a picture that it asks for
+const kMostRows = 14;  // in a tip
 
 export class Stage {
     #cells;
@@ -17,7 +17,7 @@ export class Stage {
     #frames = [null, null];  // the newest `frame` note of each stream
     #hot = [null, null];
 
-    // on.shown(header), on.drawn(stream number, stream), on.resized()
+    // Calls on.shown(header), on.drawn(stream number, stream), on.resized().
     constructor(tip, on) {
         this.#tip = tip;
         this.#cells = [0, 1].map((number) => {
@@ -47,7 +47,7 @@ export class Stage {
             try {
                 observer.observe(element, {box: 'device-pixel-content-box'});
             } catch {
-                observer.observe(element);  // where that box is not known
+                observer.observe(element);  // browsers that do not know that box
             }
         }
     }
@@ -96,7 +96,7 @@ export class Stage {
         this.redraw();
     }
 
-    // Pixels of the picture that suits the place: what a cell has, or a part of it.
+    // The size of a picture that suits a cell, in pixels, times `part`.
     fitting(part) {
         return this.#cells[0].box.map((pixels) => Math.max(Math.floor(pixels * part), kSmallest));
     }
@@ -110,7 +110,7 @@ export class Stage {
         }
     }
 
-    // What is at this place of the page, as a tip and an outline; null for nothing.
+    // Shows what lies at this position of the page as a tip and an outline; null hides them.
     hover(number, x, y) {
         const {stream} = this.#cells[number];
         const plan = stream.plan;
@@ -131,7 +131,7 @@ export class Stage {
         return owner_at(tiles, (x - box.left) / box.width * width, (box.bottom - y) / box.height * height);
     }
 
-    // Letterboxed, on whole device pixels, and pixel for pixel where the size allows.
+    // Puts the picture into its cell, on whole device pixels, and pixel for pixel if the size allows.
     #place({stream, overlay, box}) {
         const {width, height} = stream.size();
         if (!stream.drawn || box[0] === 0) return;
@@ -149,7 +149,7 @@ export class Stage {
         if (overlay.height !== pixels[1]) overlay.height = pixels[1];
     }
 
-    // Why boxes that are wanted are not there, or nothing.
+    // Says why boxes that are wanted are missing; an empty list if they are not.
     #why_no_boxes(plan, format) {
         const {boxes, count, generation} = this.#objects ?? {};
         if (generation !== plan.generation) return ['boxes are on their way'];
@@ -181,8 +181,8 @@ export class Stage {
     }
 }
 
-// The exact number of device pixels, which only this box knows where the pixel ratio is no whole number;
-// unless it contradicts the ratio, as it does while a browser plays another device.
+// The exact number of device pixels, which only this box knows if the pixel ratio is no whole number; unless
+// it contradicts the ratio, as it does while a browser emulates another device.
 function device_pixels({contentRect, devicePixelContentBoxSize}) {
     const computed = [contentRect.width, contentRect.height].map((length) => length * devicePixelRatio);
     const exact = devicePixelContentBoxSize?.[0];
@@ -191,7 +191,7 @@ function device_pixels({contentRect, devicePixelContentBoxSize}) {
         Math.abs(count - computed[axis]) <= 1 ? count : Math.floor(computed[axis]));
 }
 
-// The time of the machine that was busy longest.
+// The busy time of the busiest machine.
 export function busiest_ms(frame) {
     return Math.max(0, ...frame.machines.map(({spans}) => spans.reduce(
         (sum, {phase, begin, end}) => phase === 'wait' ? sum : sum + end - begin, 0)));

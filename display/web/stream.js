@@ -1,5 +1,5 @@
 // One stream of pictures, from bytes to the canvas. Pictures are drawn in the order in which they came; one
-// that is decoded after a newer one is dropped. Every one is answered, so that the next may come.
+// that is decoded after a newer one is dropped. Every picture is answered, so that the next may come.
 
 export class Stream {
     #canvas;
@@ -7,10 +7,10 @@ export class Stream {
     #context;
     #received = 0;
     #drawn_place = 0;
-    #waiting = null;  // takes the next lossless picture
-    drawn = null;  // {header, bytes} of what is on the canvas
+    #waiting = null;  // resolves with the next lossless picture
+    drawn = null;  // {header, bytes} of the picture on the canvas
 
-    // on.shown(header) for every picture, on.drawn(stream) after it is on the canvas.
+    // Calls on.shown(header) for every picture, and on.drawn(stream) when it is on the canvas.
     constructor(canvas, on) {
         this.#canvas = canvas;
         this.#context = canvas.getContext('2d', {alpha: false});
@@ -41,7 +41,7 @@ export class Stream {
         for (const name of ['frame', 'format', 'width', 'height', 'wish']) delete this.#canvas.dataset[name];
     }
 
-    // The newest lossless picture, at once or when it comes; null if another call or forget() was first.
+    // The newest lossless picture, now or when it comes; null if another call or forget() was first.
     lossless() {
         if (this.drawn?.header.format === 'png') return Promise.resolve(this.drawn);
         this.#answer_waiting(null);
@@ -53,7 +53,7 @@ export class Stream {
         this.#waiting = null;
     }
 
-    // What is drawn, for scripts: {frame, format, width, height, base64}, or null.
+    // The picture on the canvas, for scripts: {frame, format, width, height, base64}, or null.
     async picture() {
         if (!this.drawn) return null;
         const {header, bytes} = this.drawn;

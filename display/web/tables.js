@@ -1,6 +1,6 @@
-// Tables from plain values. The first cell of a row names it. Texts are set as texts, never as markup.
+// Makes tables of plain values. The first cell of a row names it. Texts are set as texts, never as markup.
 
-// Keeps what is there and changes what differs, so that a selection or a scroll position survives.
+// Changes only cells that differ, so that a selection or a scroll position survives.
 export function fill_rows(body, rows) {
     while (body.rows.length > rows.length) body.deleteRow(-1);
     rows.forEach((cells, place) => {

@@ -13,7 +13,7 @@ export class Tip {
         this.#table = box.querySelector('table');
     }
 
-    // `hover(event)` shows what a pointer is on. Under a finger it stays until the next touch.
+    // `hover(event)` shows the tip for the pointer. Under a finger it stays until the next touch.
     attach(element, hover) {
         element.addEventListener('pointermove', hover);
         element.addEventListener('pointerdown', hover);
@@ -21,7 +21,7 @@ export class Tip {
         document.addEventListener('pointerdown', ({target}) => target !== element && this.hide());
     }
 
-    // `rows` are lists of texts: what, value, and more.
+    // `rows` are lists of texts: name, value, and more.
     show(x, y, title, rows) {
         this.#title.textContent = title;
         fill_rows(this.#table, rows);

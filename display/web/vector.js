@@ -1,4 +1,4 @@
-// Vectors of three as arrays.
+// Vectors as arrays of three.
 
 export const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 export const subtract = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

@@ -1,5 +1,5 @@
-// What this page's person wants. Every change goes to the display as the whole wish, at most once per
-// animation frame. Knows when the input behind each wish came, for the lag.
+// The wish of this page's person. Every change goes to the display as the whole wish, at most once per
+// animation frame. Also keeps the time of the input behind each wish, for the lag.
 
 import {to_numbers} from './camera.js';
 
@@ -17,14 +17,14 @@ export class Wishes {
     want = {};
     sent = null;
 
-    // `send` takes the wish and says whether it went out.
+    // `send` takes the wish and returns whether it went out.
     constructor(send) { this.#send = send; }
 
     get camera() { return this.#camera; }
     get id() { return this.#id; }
 
-    // Takes over what counts now, without wishing for it. Counts begin at 0, which rises over nothing that
-    // anybody wished before.
+    // Adopts the state without wishing for it. Counts begin at 0, which exceeds nothing that anybody wished
+    // before.
     adopt(state, camera) {
         this.#camera = camera;
         this.#input_time = null;
@@ -41,7 +41,7 @@ export class Wishes {
         this.#input_time = null;
     }
 
-    // `input_time` is the event's, on the page's clock; without, no lag is measured.
+    // `input_time` is the event's, on the page's clock; without it, no lag is measured.
     set(fields, input_time = null) {
         for (const field of Object.keys(fields)) this.#since.set(field, this.#id + 1);
         Object.assign(this.want, fields);
@@ -58,7 +58,7 @@ export class Wishes {
     // The first wish that carried the field's value; 0 if it was not this page's.
     since(field) { return this.#since.get(field) ?? 0; }
 
-    // The time of the input that led to this wish, once.
+    // Returns the time of the input that led to this wish, once.
     take_input(id) {
         const time = this.#inputs.get(id) ?? null;
         for (const known of this.#inputs.keys())
