@@ -6,7 +6,7 @@
 namespace swath {
 namespace {
 
-// Moves every third bit, from the lowest on, next to each other: what interleave() took apart.
+// Undoes interleave(): moves every third bit, from the lowest on, next to each other.
 std::uint32_t gather(std::uint32_t v) {
     v &= 0x09249249u;
     v = (v | v >> 2) & 0x030c30c3u;

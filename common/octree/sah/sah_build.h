@@ -1,6 +1,5 @@
 #pragma once
-// The builder's two device systems: the same source compiled for each. Without anything of ours that nvcc
-// cannot compile.
+// The builder's two backends, TBB and CUDA: one source that is compiled for each. nvcc compiles this header.
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -16,17 +15,17 @@ struct SahOutcome {
     std::string error;  // empty: none
 };
 
-// What a device system has of a builder. Not for several threads at once.
+// A builder on one backend. One thread at a time.
 class SahBuild {
   public:
     virtual ~SahBuild() = default;
-    // `settings` are in range. Throws std::bad_alloc.
+    // `settings` must be in range. Throws std::bad_alloc.
     virtual SahOutcome build(const SahTriangles& triangles, const SahSettings& settings) = 0;
 };
 
-// On `threads` threads of this machine, at least 1.
+// A builder on `threads` threads of this machine, at least 1.
 std::unique_ptr<SahBuild> make_tbb_build(std::size_t threads);
-// On the first CUDA device; none, and why, where there is none.
+// A builder on the first CUDA device. Null where there is none, and `why` says the reason.
 std::unique_ptr<SahBuild> make_cuda_build(std::string& why);
 
 }  // namespace swath

@@ -1,5 +1,5 @@
-// The SAH octree builder, for whichever device system Thrust is compiled for: TBB or CUDA. Included by one
-// source of each, which says whether that is the host (kOnHost) and how many references a thread works on at
+// The SAH octree builder for the backend that Thrust is compiled for, TBB or CUDA. One source of each
+// includes it and says whether it runs on the host (kOnHost) and how many references a thread works on at
 // once (kChunk).
 #include <thrust/copy.h>
 #include <thrust/device_malloc_allocator.h>
@@ -25,10 +25,10 @@
 namespace swath {
 namespace {
 
-// Lists of references, of a grain each, that a worker who finishes a subtree has room for.
+// A worker that builds subtrees has scratch space for so many lists of `grain` references.
 constexpr std::uint32_t kScratchLists = 8;
 
-// Device memory that is not initialised: most of it is written before it is read, and some never.
+// Leaves device memory uninitialised: most of it is written before it is read, and some is never used.
 template <class T>
 struct UninitialisedAllocator : thrust::device_malloc_allocator<T> {
     using Base = thrust::device_malloc_allocator<T>;
@@ -43,18 +43,19 @@ struct UninitialisedAllocator : thrust::device_malloc_allocator<T> {
 };
 template <class T>
 using Array = thrust::device_vector<T, UninitialisedAllocator<T>>;
-// What Thrust's algorithms are given: its own iterators to device memory bind references to null on threads.
+// Thrust's algorithms get raw pointers: its own iterators to device memory bind references to null on
+// threads.
 template <class T>
 T* raw(Array<T>& array) {
     return thrust::raw_pointer_cast(array.data());
 }
 
-// work(i) for every i below count, side by side.
+// Calls work(i) for every i below count, in parallel.
 template <class Work>
 void for_all(std::size_t count, const Work& work) {
 #if defined(__SANITIZE_THREAD__)
-    // The sanitizer does not see what TBB, which is built without it, has threads wait for, and takes each
-    // hand-over for a race. So that it still checks our work, threads that it knows do it.
+    // TBB is built without the sanitizer, which therefore does not see its threads wait for one another and
+    // takes each hand-over for a race. Threads that it knows do the work, so that it still checks ours.
     constexpr std::size_t kThreads = 4;
     std::vector<std::jthread> threads;
     for (std::size_t t = 0; t < kThreads; ++t)
@@ -68,16 +69,16 @@ void for_all(std::size_t count, const Work& work) {
 #endif
 }
 
-// One build after the other; keeps its memory for the next.
+// Does one build after another and keeps its memory for the next.
 class ThrustBuild {
   public:
-    // Workers that build subtrees: each needs scratch space.
+    // At most `max_workers` build subtrees at once; each needs scratch space.
     explicit ThrustBuild(std::uint32_t max_workers) : max_workers_(max_workers) {}
 
     SahOutcome build(const SahTriangles& input, const SahSettings& settings) {
         const bool used_before = bytes_ > 0;
         SahOutcome outcome = build_with_what_is_there(input, settings);
-        // What an earlier build took is no reason to refuse this one.
+        // A build that was too large has freed what earlier builds took: without that it may fit.
         if (bytes_ == 0 && used_before && !outcome.error.empty())
             outcome = build_with_what_is_there(input, settings);
         return outcome;
@@ -110,7 +111,7 @@ class ThrustBuild {
             }
             return {std::move(tree), {}};
         } catch (const TooLarge& too_large) {
-            // The next build may be a small one, and should not have to do without what this one took.
+            // Frees the memory, which the next, smaller build may need.
             *this = ThrustBuild(max_workers_);
             return {{},
                     "a tree over " + std::to_string(count) + " triangles takes more than the " +
@@ -127,7 +128,7 @@ class ThrustBuild {
         bytes_ = bytes_ - before + now;
         if (bytes_ > settings_.max_bytes) throw TooLarge{now, what};
     }
-    // `size` places, whatever they hold; an array never shrinks, since the next build is often as large.
+    // Room for `size` elements, uninitialised. An array never shrinks: the next build is often as large.
     template <class T>
     T* room(Array<T>& array, std::size_t size, const char* what) {
         if (array.size() < size) {
@@ -149,7 +150,7 @@ class ThrustBuild {
         thrust::copy(array.begin(), array.begin() + static_cast<std::ptrdiff_t>(size), values.begin());
         return values;
     }
-    // The tree is the caller's, so that every build pays for its own.
+    // The tree goes to the caller, so its bytes count for this build only and not in bytes_.
     void grow(SahTree& tree, std::size_t nodes, std::size_t triangles) {
         const std::size_t bytes = nodes * sizeof(SahNode) + triangles * sizeof(std::uint32_t);
         if (nodes > kMaxSahNodes || bytes_ + bytes > settings_.max_bytes) throw TooLarge{bytes, "the tree"};
@@ -157,7 +158,7 @@ class ThrustBuild {
         tree.triangles.resize(triangles);
     }
 
-    // False if there is a triangle that cannot be.
+    // Returns false if a triangle lacks a corner or has a coordinate that is not allowed.
     bool make_references(const SahTriangles& input, SahBox& box) {
         const auto count = static_cast<std::uint32_t>(input.count());
         MakeReferences make{};
@@ -168,7 +169,7 @@ class ThrustBuild {
             make.indices = input.indices.data();
         } else {
             const auto* from = reinterpret_cast<const unsigned char*>(input.positions);
-            // What is behind the last position is not the caller's.
+            // The memory behind the last position's three floats is not ours to read.
             const std::size_t bytes = input.stride * (input.position_count - 1) + 3 * sizeof(float);
             make.positions = room(positions_, bytes, "the positions");
             thrust::copy(from, from + bytes, positions_.begin());
@@ -191,8 +192,8 @@ class ThrustBuild {
             subtrees_.push_back({child, 0, 0});
     }
 
-    // Cuts the nodes of opens_, whose references are in references_; their children become opens_ and
-    // subtrees_, their references go to scattered_.
+    // Cuts the nodes of opens_, whose references are in references_. Their children become opens_ and
+    // subtrees_, the children's references go to scattered_.
     void cut_level(SahTree& tree) {
         std::vector<Chunk> chunks;
         for (std::size_t i = 0; i < opens_.size(); ++i) {
@@ -221,8 +222,8 @@ class ThrustBuild {
         unsigned char* children = room(children_, references_.size(), "counts");
         room(begins_, counted + 1, "counts");
         std::vector<std::uint32_t> begins;
-        // Twice more where triangles would stand in too many children: cut along the best axis only, then not
-        // at all.
+        // Where triangles would stand in too many children, counts again, at most twice: with the best plane
+        // only, then with none.
         for (bool again = true; again;) {
             again = false;
             for_all(chunks.size(), CountChildren{opens, d_chunks, cuts, references, children, counts});
@@ -244,7 +245,7 @@ class ThrustBuild {
         for (std::size_t i = 0; i < parents.size(); ++i) add_children(parents[i], found[i], begins, tree);
     }
 
-    // What its leaves have at least.
+    // The least number of triangles that the node's leaves have, an empty child counting as one.
     static std::uint32_t needed_by(const Open& open, std::uint32_t axes,
                                    const std::vector<std::uint32_t>& begins) {
         std::uint32_t needed = 0;
@@ -285,7 +286,7 @@ class ThrustBuild {
         }
     }
 
-    // Finishes subtrees_, whose references are in references_.
+    // Builds all of subtrees_, whose references are in references_, and empties it.
     void build_subtrees(SahTree& tree) {
         const std::size_t count = subtrees_.size();
         if (count == 0) return;
@@ -379,7 +380,7 @@ class ThrustBuild {
     Array<std::uint32_t> scratch_bins_;
     Array<std::uint32_t> nodes_;
     Array<std::uint32_t> triangles_;
-    Array<std::uint32_t> roots_;  // these three on a GPU only
+    Array<std::uint32_t> roots_;  // this and the next two are used on a GPU only
     Array<std::uint32_t> placed_nodes_;
     Array<std::uint32_t> placed_triangles_;
 };

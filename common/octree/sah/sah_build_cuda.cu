@@ -1,4 +1,4 @@
-// Thrust has another version here than in the TBB build of the same program.
+// The TBB build in the same program has another version of Thrust, so this one gets a namespace of its own.
 #define THRUST_CUB_WRAPPED_NAMESPACE swath_cuda
 #include <cuda_runtime.h>
 #include <thrust/version.h>
@@ -9,7 +9,7 @@ namespace swath {
 namespace thrust = ::swath_cuda::thrust;
 namespace {
 constexpr bool kOnHost = false;
-// Enough for every multiprocessor to have work while the root is cut.
+// So few that every multiprocessor has work while the root is cut.
 constexpr std::uint32_t kChunk = 256;
 constexpr std::uint32_t kWorkers = 4096;
 }  // namespace

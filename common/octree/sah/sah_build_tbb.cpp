@@ -13,7 +13,7 @@
 namespace swath {
 namespace {
 constexpr bool kOnHost = true;
-// References that a thread works on at once: 128 KiB.
+// A thread works on so many references at once: 128 KiB.
 constexpr std::uint32_t kChunk = 4096;
 }  // namespace
 }  // namespace swath
@@ -24,7 +24,7 @@ namespace {
 
 class TbbBuild final : public SahBuild {
   public:
-    // More threads than processors only wait for each other, and TBB says so on standard error.
+    // TBB warns on standard error about more threads than processors, which would only wait for each other.
     explicit TbbBuild(std::size_t threads)
         : arena_(std::min(static_cast<int>(threads), tbb::info::default_concurrency())),
           build_(static_cast<std::uint32_t>(4 * threads)) {}

@@ -51,7 +51,7 @@ Result<SahTree> SahBuilder::build(const SahTriangles& triangles, const SahSettin
         if (!outcome.error.empty()) return fail("{}", outcome.error);
         return std::move(outcome.tree);
     } catch (const std::bad_alloc&) {
-        // What it has grown to may be what is missing.
+        // Frees the builder's memory, which may be what is missing.
         if (device_ == SahDevice::kThreads) build_ = make_tbb_build(threads_);
         return fail("not enough memory for a tree over {} triangles", triangles.count());
     }

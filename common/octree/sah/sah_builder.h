@@ -12,28 +12,28 @@ namespace swath {
 
 class SahBuild;
 
-// Where trees are built: on threads of this machine, or on a CUDA device.
+// What builds trees: threads of this machine, or a CUDA device.
 enum class SahDevice { kThreads, kCuda };
 
-// Why kCuda cannot be had here: this build has no CUDA, the machine no device. Empty where it can.
+// Says why kCuda is not available: the program is built without CUDA, or the machine has no device. Empty if
+// it is.
 std::string missing_cuda();
 
-// Builds SAH octrees (Improved octree construction of the SAH octree paper, algorithm 1), one after another,
-// and keeps its memory for the next one. The tree depends on the triangles and the settings alone, never on
-// the device or the number of threads. A resource of one thread at a time.
+// Builds SAH octrees (improved octree construction of the SAH octree paper, algorithm 1), one after another,
+// and keeps its memory for the next. A tree depends on triangles and settings alone, never on the device or
+// the number of threads. One thread at a time.
 class SahBuilder {
   public:
-    // `threads`, at least 1, build together. Where kCuda is asked for and cannot be had it is kThreads, and
-    // fallback() is missing_cuda().
+    // `threads`, at least 1, build together. If kCuda is asked for and not available, the device is kThreads
+    // and fallback() says why, as missing_cuda() does.
     explicit SahBuilder(std::size_t threads, SahDevice device = SahDevice::kThreads);
     ~SahBuilder();
 
     SahDevice device() const { return device_; }
-    const std::string& fallback() const { return fallback_; }  // empty: none
+    const std::string& fallback() const { return fallback_; }  // empty: the device is what was asked for
 
-    // Fails without triangles, with coordinates that are not numbers or beyond kMaxSahCoordinate, with
-    // indices beyond the positions, with settings out of range, and where the tree or the memory for building
-    // it would be too large.
+    // Fails if there are no triangles, a coordinate is not a number or beyond kMaxSahCoordinate, an index is
+    // beyond the positions, a setting is out of range, or the tree or the memory to build it is too large.
     Result<SahTree> build(const SahTriangles& triangles, const SahSettings& settings);
 
   private:

@@ -5,11 +5,11 @@
 
 namespace swath {
 
-// The least that a grain of 0 stands for.
+// The smallest grain that SahSettings::grain = 0 stands for.
 inline constexpr std::uint32_t kMinSahGrain = 2048;
 
-// Why no tree can be built of these triangles with these settings, or success: no triangles, positions that
-// cannot be, settings out of range. Does not look at positions and indices.
+// Fails if no tree can be built: there are no triangles, the number or the stride of positions is impossible,
+// or a setting is out of range. Does not read positions and indices.
 Status check_sah(const SahTriangles& triangles, const SahSettings& settings);
 
 }  // namespace swath

@@ -1,6 +1,6 @@
 #pragma once
-// What one thread of an SAH build does, on a processor or on a GPU: plain functions over plain arrays.
-// Everything is in an unnamed namespace, because two compilers build it for one program.
+// The steps that one thread of an SAH build does, on a processor or on a GPU: plain functions over plain
+// arrays. All of it is in an unnamed namespace, because two compilers build it for one program.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -19,12 +19,12 @@
 namespace swath {
 namespace {
 
-// A triangle in a node: the part of its box that lies in the node's.
+// A triangle in a node: the part of the triangle's box that lies in the node's box.
 struct SahReference {
     float low[3];
     std::uint32_t triangle;
     float high[3];
-    std::uint32_t children;  // scratch of the thread that cuts the node: those it goes to, a bit each
+    std::uint32_t children;  // scratch while the node is cut: the children that it goes to, a bit each
 };
 static_assert(sizeof(SahReference) == 32);
 
@@ -33,7 +33,7 @@ struct SahBox {
     float high[3];
 };
 
-// How many boxes start and how many end in each bin of each axis. There is room for one bin more.
+// The numbers of boxes that start and that end in each bin of each axis. There is room for one bin more.
 struct SahBins {
     std::uint32_t* starts[3];
     std::uint32_t* ends[3];
@@ -48,11 +48,11 @@ SWATH_BOTH SahBins bins_at(std::uint32_t* first, std::uint32_t count) {
     bins.count = count;
     return bins;
 }
-inline constexpr std::size_t kBinWords = 6;  // for each bin, the one more included
+inline constexpr std::size_t kBinWords = 6;  // for each of count + 1 bins
 
-// A sample of an axis, between two bins, and what is counted there and at the samples beside it.
+// A sample of an axis is a border between two bins. Counts are taken there and at the samples beside it.
 struct SahSample {
-    float before;  // where the samples are
+    float before;  // positions of the sample before, of this one and of the one after
     float at;
     float after;
     std::uint32_t below_before;  // boxes that start below
@@ -60,19 +60,19 @@ struct SahSample {
     std::uint32_t above;  // boxes that end above
     std::uint32_t above_after;
 };
-// What is nearest to a sample of each axis. (Four numbers, so that they can be had at once.)
+// The sides of boxes that are nearest to each axis's sample. (The fourth number fills a vector register.)
 struct SahNearest {
-    float last_end[4];          // below the sample
-    float first_start[4];       // above the one before
-    float next_last_end[4];     // below the one after
-    float next_first_start[4];  // above the sample
+    float last_end[4];          // at or below the sample
+    float first_start[4];       // at or above the sample before
+    float next_last_end[4];     // at or below the sample after
+    float next_first_start[4];  // at or above the sample
 };
 
-// Where an axis is best cut.
+// The best plane across an axis.
 struct SahPlane {
     float position;
-    float cost;  // of the cut node, traversal included; in units of the node's area
-    bool any;    // whether there is a place that costs less than a leaf
+    float cost;  // of the cut node, traversal included, per area of the node
+    bool any;    // whether there is a plane that costs less than a leaf
 };
 
 SWATH_BOTH float lower(float a, float b) { return b < a ? b : a; }
@@ -93,13 +93,13 @@ SWATH_BOTH std::uint32_t float_bits(float x) {
     return bits;
 }
 
-// The bins' factor from a length to a bin, 0 for an axis that cannot be divided.
+// Bins per length, 0 for an axis that cannot be divided.
 SWATH_BOTH float bin_scale(const SahBox& box, int axis, std::uint32_t bins) {
     const float scale = static_cast<float>(bins) / (box.high[axis] - box.low[axis]);
     return scale < 3e38f ? scale : 0.0f;
 }
 
-// Three numbers' bins, not limited to the last one.
+// The bins of a point's three coordinates. Rounding may give one beyond the last.
 struct ThreeBins {
     std::int32_t of[4];
 };
@@ -107,8 +107,8 @@ struct ThreeBins {
 struct BinScale {
     __m128 low;
     __m128 scale;
-    // The fourth of `low` is 1, so that what stands in a reference's fourth makes no denormal numbers, which
-    // are slow.
+    // The fourth of `low` is 1, so that no denormal number, which would be slow, comes of a reference's
+    // fourth word.
     BinScale(const float* lows, const float* scales)
         : low(_mm_setr_ps(lows[0], lows[1], lows[2], 1.0f)),
           scale(_mm_setr_ps(scales[0], scales[1], scales[2], 0.0f)) {}
@@ -134,11 +134,12 @@ struct BinScale {
 };
 #endif
 
-// Of few bins: a box is compared with all samples between them, which takes less than finding its bins and
-// counting there.
+// With at most so many bins, comparing a box with all samples takes less than finding its bins and counting
+// there.
 inline constexpr std::uint32_t kFewBins = 8;
 #if defined(__SSE2__) && !defined(__CUDACC__)
-// `sides` is the first reference's; the others' follow, a reference apart.
+// Counts, for each sample and axis, the references whose side is below. `sides` is the first reference's low
+// or high; the others follow, a reference apart.
 template <int kSamples>
 void count_below(const float* sides, std::uint32_t count, const float (*samples)[4],
                  std::uint32_t (*below)[4]) {
@@ -165,7 +166,7 @@ SWATH_BOTH void compare_with_samples(const SahReference* references, std::uint32
         for (int i = 0; i < kSamples; ++i)
             samples[i][axis] = box.low[axis] + static_cast<float>(i + 1) * width;
     }
-    // How many start, and how many end, below each sample.
+    // The numbers of boxes that start, and that end, below each sample.
     std::uint32_t starts[kSamples][4] = {};
     std::uint32_t ends[kSamples][4] = {};
 #if defined(__SSE2__) && !defined(__CUDACC__)
@@ -203,7 +204,7 @@ SWATH_BOTH void count_bins(const SahReference* references, std::uint32_t count, 
     if (bins.count <= kFewBins) return compare_with_samples(references, count, box, bins);
     float scale[3];
     for (int axis = 0; axis < 3; ++axis) scale[axis] = bin_scale(box, axis, bins.count);
-    // All six stand together.
+    // The six arrays are contiguous.
     for (std::uint32_t i = 0; i < kBinWords * (bins.count + 1); ++i) bins.starts[0][i] = 0;
     const BinScale bins_of(box.low, scale);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -214,7 +215,7 @@ SWATH_BOTH void count_bins(const SahReference* references, std::uint32_t count, 
             ++bins.ends[axis][end.of[axis]];
         }
     }
-    // What rounding took beyond the last bin belongs there.
+    // What rounding puts beyond the last bin belongs into it.
     for (int axis = 0; axis < 3; ++axis) {
         bins.starts[axis][bins.count - 1] += bins.starts[axis][bins.count];
         bins.ends[axis][bins.count - 1] += bins.ends[axis][bins.count];
@@ -223,7 +224,7 @@ SWATH_BOTH void count_bins(const SahReference* references, std::uint32_t count, 
 
 // A node's sides, in units of its longest side, so that no area overflows.
 struct SahShape {
-    float unit;  // of length
+    float unit;  // 1 / the longest side
     float side[3];
     SWATH_BOTH explicit SahShape(const SahBox& box) {
         float longest = 0.0f;
@@ -236,24 +237,24 @@ struct SahShape {
     }
     SWATH_BOTH float area() const { return side[0] * side[1] + (side[0] + side[1]) * side[2]; }
 };
-// What it costs to cut it along an axis, by equation 1.
+// The cost of cutting a node across an axis, by equation 1.
 struct SahAxis {
-    float along;  // the axis
-    float face;   // area of the face that a plane makes
-    float girth;  // area a length
+    float along;  // the node's side along the axis
+    float face;   // the area of a plane in the node
+    float girth;  // the area per length along the axis
     SWATH_BOTH SahAxis(const SahShape& shape, int axis) : along(shape.side[axis]) {
         const float one = shape.side[axis == 0 ? 1 : 0];
         const float other = shape.side[axis == 2 ? 1 : 2];
         face = one * other;
         girth = one + other;
     }
-    // Triangles times the areas that they are met with, for a plane at x from the lower end.
+    // The triangles of both parts, each times the part's area, for a plane at `x` from the lower end.
     SWATH_BOTH float tests(float x, std::uint32_t below, std::uint32_t above) const {
         return static_cast<float>(static_cast<std::int32_t>(below)) * (face + x * girth) +
                static_cast<float>(static_cast<std::int32_t>(above)) * (face + (along - x) * girth);
     }
 };
-// What a cut must be below to be cheaper than a leaf.
+// A cut is cheaper than a leaf if its SahAxis::tests() are below this.
 SWATH_BOTH float most_tests(const SahShape& shape, std::uint32_t count, const SahSettings& settings) {
     return (static_cast<float>(count) - settings.traversal_cost / settings.intersection_cost) * shape.area();
 }
@@ -261,8 +262,9 @@ SWATH_BOTH float cost_of(const SahShape& shape, float tests, const SahSettings& 
     return settings.traversal_cost + settings.intersection_cost * tests / shape.area();
 }
 
-// Algorithm 1's Found: the numbers below and above each sample follow from those before it; the cheapest one,
-// the lowest of equals. There is none (`after` is not above `before`) where the axis cannot be divided.
+// The cheapest sample of an axis, of equal ones the lowest. The numbers below and above a sample follow from
+// those at the sample before it (algorithm 1's Found). If the axis cannot be divided there is no sample:
+// `after` is not above `before`.
 SWATH_BOTH SahSample best_sample(const std::uint32_t* starts, const std::uint32_t* ends, std::uint32_t bins,
                                  std::uint32_t count, const SahBox& box, const SahShape& shape, int axis) {
     SahSample best{};
@@ -309,7 +311,7 @@ SWATH_BOTH void add_nearest(SahNearest& sum, const SahNearest& more) {
         sum.next_first_start[i] = lower(sum.next_first_start[i], more.next_first_start[i]);
     }
 }
-// A second pass: what is nearest to the samples of the three axes.
+// Finds the sides nearest to the samples of the three axes, in a second pass over the boxes.
 SWATH_BOTH SahNearest nearest(const SahReference* references, std::uint32_t count, const SahSample* samples) {
     SahNearest near = nothing_near();
 #if defined(__SSE2__) && !defined(__CUDACC__)
@@ -356,9 +358,10 @@ SWATH_BOTH SahNearest nearest(const SahReference* references, std::uint32_t coun
     return near;
 }
 
-// The cheapest place at or beside a sample: the sample, the last end before it and the first start after it,
-// and, where everything of a bin beside it ends before anything starts, as at the flat sides of what people
-// build, the ends of that gap, where a plane cuts nothing of that bin in two.
+// The cheapest plane at or beside a sample. Candidates are the sample, the last end in the bin before it and
+// the first start in the bin after it. Where all boxes that end in one of these bins do so before any starts
+// in it, as at the flat sides of what people build, both ends of the gap are candidates: a plane there cuts
+// nothing of that bin in two.
 SWATH_BOTH SahPlane best_plane(const SahSample& sample, const SahNearest& near, std::uint32_t count,
                                const SahBox& box, const SahShape& shape, int axis,
                                const SahSettings& settings) {
@@ -391,7 +394,7 @@ SWATH_BOTH SahPlane best_plane(const SahSample& sample, const SahNearest& near, 
     return best;
 }
 
-// Of few triangles all sides of all boxes are candidates, and bins would be more work.
+// With at most so many triangles, trying all sides of all boxes is less work than bins.
 inline constexpr std::uint32_t kExactTriangles = 8;
 SWATH_BOTH SahPlane exact_plane(const SahReference* references, std::uint32_t count, const SahBox& box,
                                 const SahShape& shape, int axis, const SahSettings& settings) {
@@ -431,17 +434,17 @@ SWATH_BOTH SahPlane exact_plane(const SahReference* references, std::uint32_t co
     return best;
 }
 
-// On which sides of a plane an interval lies: bit 0 below, bit 1 above. What only touches it is on its own
-// side, and what lies in it is below.
+// The sides of a plane that an interval lies on: bit 0 below, bit 1 above. An interval that only touches the
+// plane is on one side, one that lies in the plane is below.
 SWATH_BOTH std::uint32_t sides(float low, float high, float plane) {
     return (low < plane || high <= plane ? 1u : 0u) | (high > plane ? 2u : 0u);
 }
 
-// Where a node is cut: up to three planes. An axis without one has a plane beyond everything.
+// The planes that cut a node, at most one across each axis.
 struct SahCut {
     SahPlane planes[3];
 };
-// Leaves out planes that gain much less than the best one.
+// Drops planes that gain less than settings.least_gain of what the best one gains.
 SWATH_BOTH void drop_poor(SahCut& cut, std::uint32_t count, const SahSettings& settings) {
     const float leaf = settings.intersection_cost * static_cast<float>(count);
     float best = 0.0f;
@@ -453,11 +456,12 @@ SWATH_BOTH void drop_poor(SahCut& cut, std::uint32_t count, const SahSettings& s
 SWATH_BOTH std::uint32_t axes_of(const SahCut& cut) {
     return (cut.planes[0].any ? 1u : 0u) | (cut.planes[1].any ? 2u : 0u) | (cut.planes[2].any ? 4u : 0u);
 }
+// The positions of the planes. An axis without one gets a position beyond all coordinates.
 SWATH_BOTH void positions_of(const SahCut& cut, float* positions) {
     for (int axis = 0; axis < 3; ++axis)
         positions[axis] = cut.planes[axis].any ? cut.planes[axis].position : kHuge;
 }
-// Leaves the cheapest plane; if there is one only, none.
+// Keeps the cheapest of several planes, and none if there is only one.
 SWATH_BOTH void keep_best(SahCut& cut) {
     int best = -1;
     int planes = 0;
@@ -471,7 +475,8 @@ SWATH_BOTH void keep_best(SahCut& cut) {
 }
 
 #if defined(__SSE2__) && !defined(__CUDACC__)
-// For the axes along which a reference goes below (bits 0 to 2) and above (3 to 5).
+// of[sides] has a bit for each child that a reference goes to. `sides` tells the axes along which the
+// reference is below a plane (bits 0 to 2) and above it (bits 3 to 5).
 struct ChildrenTable {
     std::uint8_t of[64];
     constexpr ChildrenTable() : of{} {
@@ -489,7 +494,8 @@ struct ChildrenTable {
 inline constexpr ChildrenTable kChildren;
 #endif
 
-// The children, of eight, that a reference goes to: along an axis that is not cut all are below.
+// The children that a reference goes to, a bit for each of eight. All are below along an axis that is not
+// cut.
 SWATH_BOTH std::uint32_t children_of(const SahReference& r, const float* positions) {
 #if defined(__SSE2__) && !defined(__CUDACC__)
     const __m128 plane = _mm_setr_ps(positions[0], positions[1], positions[2], 0.0f);
@@ -506,7 +512,7 @@ SWATH_BOTH std::uint32_t children_of(const SahReference& r, const float* positio
            kOf[2][sides(r.low[2], r.high[2], positions[2])];
 #endif
 }
-// The part of a reference that lies in child `child`.
+// Cuts a reference to the part that lies in a child.
 SWATH_BOTH void clip_to_child(SahReference& r, std::uint32_t child, const float* positions) {
     for (int axis = 0; axis < 3; ++axis) {
         if ((child >> axis & 1) != 0)
@@ -530,11 +536,11 @@ SWATH_BOTH std::uint32_t lowest_bit(std::uint32_t bits) {
 #endif
 }
 
-// Counts references by their children: eight counters of a byte each, emptied before one is full.
+// Counts references by child, in eight counters of a byte each, which are emptied before one is full.
 struct ChildCounts {
     std::uint32_t of[8] = {};
     SWATH_BOTH void add(std::uint32_t children) {
-        // Bit i to the lowest bit of byte i.
+        // Adds bit i to byte i.
         bytes_ += ((children & 0x7f) * 0x0002040810204081ull & 0x0001010101010101ull) |
                   static_cast<std::uint64_t>(children >> 7) << 56;
         if (++pending_ == 255) empty();
@@ -551,13 +557,13 @@ struct ChildCounts {
     std::uint32_t pending_ = 0;
 };
 
-// How many triangles the leaves of a child may have, if its parent's may have `allowed` and all children
-// together need at least `needed` of them.
+// How many triangles the leaves of a child with `count` may have, if its parent's leaves may have `allowed`
+// and all children together need `needed` or more.
 SWATH_BOTH std::uint32_t share_of(std::uint32_t allowed, std::uint32_t needed, std::uint32_t count) {
     const std::uint32_t least = count > 0 ? count : 1;
     return least + static_cast<std::uint32_t>(static_cast<std::uint64_t>(allowed - needed) * least / needed);
 }
-// The nodes of a tree whose leaves have so many.
+// Room for the nodes of a tree whose leaves have `allowed` triangles, an empty leaf counting as having one.
 SWATH_BOTH std::uint32_t nodes_for(std::uint32_t allowed) { return 2 * allowed; }
 
 }  // namespace

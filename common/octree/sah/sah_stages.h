@@ -1,7 +1,7 @@
 #pragma once
-// The stages of an SAH build, each a function object that is called for every chunk of references, every node
-// or every subtree of a level, side by side and in any order: no call writes what another one of the same
-// stage reads or writes.
+// The stages of an SAH build. Each is a function object that is called for every chunk of references, every
+// node or every subtree of a level, in parallel and in any order. No call writes what another call of the
+// same stage reads or writes.
 #include <cstddef>
 #include <cstdint>
 
@@ -11,24 +11,24 @@
 namespace swath {
 namespace {
 
-// An octree node that is to be cut: its references, and where it is in the tree.
+// An octree node that is to be cut: its references and its place in the tree.
 struct Open {
     SahBox box;
     std::uint32_t first;
     std::uint32_t count;
-    std::uint32_t allowed;  // triangles in its leaves
+    std::uint32_t allowed;  // the most triangles in its leaves
     std::uint32_t node;
     std::uint32_t depth;
     std::uint32_t first_chunk;
     std::uint32_t chunks;
 };
-// Some references of one node, which one thread works on.
+// The references of one node that one thread works on.
 struct Chunk {
     std::uint32_t open;
     std::uint32_t first;
     std::uint32_t count;
 };
-// A child that one thread finishes, and where what it makes is built, among that of all.
+// A child that one thread builds, and where its nodes and triangles go among those of all subtrees.
 struct Subtree {
     Open at;
     std::size_t first_node;
@@ -52,14 +52,14 @@ struct MakeReferences {
             const float* const a = reinterpret_cast<const float*>(positions + stride * corner[0]);
             const float* const b = reinterpret_cast<const float*>(positions + stride * corner[1]);
             const float* const c = reinterpret_cast<const float*>(positions + stride * corner[2]);
-            float sum = 0.0f;  // not a number if one of them is none
+            float sum = 0.0f;  // NaN if a coordinate is no finite number
             for (int axis = 0; axis < 3; ++axis) {
-                // No zero is negative, so that no bit depends on which of two equal zeros is taken.
+                // Adding 0 makes -0 a 0: no bit may depend on which of two equal zeros is taken.
                 r.low[axis] = lower(lower(a[axis], b[axis]), c[axis]) + 0.0f;
                 r.high[axis] = higher(higher(a[axis], b[axis]), c[axis]) + 0.0f;
                 sum += (a[axis] + b[axis] + c[axis]) * 0.0f;
             }
-            if (sum != 0.0f) r.low[0] = r.high[0] = -kHuge;
+            if (sum != 0.0f) r.low[0] = r.high[0] = -kHuge;  // make_references() refuses it
         } else {
             r.low[0] = r.high[0] = -kHuge;
         }
@@ -103,7 +103,7 @@ struct BinChunk {
     }
 };
 
-// For one axis of a node: adds its chunks' bins up, in those of the first chunk, and finds the sample.
+// Adds up the bins of a node's chunks along one axis, into the first chunk's, and finds the best sample.
 struct FindSample {
     const Open* opens;
     std::uint32_t* bins;
@@ -159,7 +159,7 @@ struct FindCut {
     }
 };
 
-// Counts of a level are in the order of nodes, then children, then chunks.
+// A level's counts are in the order of nodes, then children, then chunks.
 SWATH_BOTH std::size_t count_at(const Open& open, std::uint32_t child, std::uint32_t chunk) {
     return std::size_t{8} * open.first_chunk + std::size_t{child} * open.chunks + (chunk - open.first_chunk);
 }
@@ -240,7 +240,7 @@ struct BuildSubtrees {
             SahSubtreeOutput out{nodes + 4 * subtrees[i].first_node, triangles + subtrees[i].first_triangle,
                                  0, 0};
             if (at.count > settings.grain) {
-                // Nothing can be gained by cutting it.
+                // No cut was worth it, so it becomes a leaf.
                 out.nodes[0] = out.nodes[2] = out.nodes[3] = 0;
                 out.nodes[1] = out.triangle_count = at.count;
                 out.node_count = 1;
@@ -255,15 +255,15 @@ struct BuildSubtrees {
     }
 };
 
-// Brings a subtree's nodes and triangles to their places: its root among the roots, the rest together.
+// Copies a subtree to its place: its root to the roots, its other nodes and its triangles to the tree.
 struct PlaceSubtree {
     const Subtree* subtrees;
     const SubtreeSizes* sizes;
-    const SubtreeSizes* begins;  // in the tree, of what is behind the root and of the triangles
+    const SubtreeSizes* begins;  // in the tree, of the nodes but the root and of the triangles
     const std::uint32_t* nodes;
     const std::uint32_t* triangles;
     std::uint32_t* roots;
-    std::uint32_t* to_nodes;  // counted from the first subtree's begin, as to_triangles
+    std::uint32_t* to_nodes;  // at the first subtree's begin, like to_triangles
     std::uint32_t* to_triangles;
     SWATH_BOTH void operator()(std::uint32_t i) const {
         const Subtree& s = subtrees[i];
@@ -276,7 +276,7 @@ struct PlaceSubtree {
             to[0] = from[0] + (axes == 0 ? begin.triangles : 0);
             to[1] = from[1];
             to[2] = from[2];
-            // Child 1 is the first behind the root.
+            // begin.nodes is where node 1 goes, the first behind the root.
             to[3] = axes == 0 ? 0 : ((from[3] >> 3) - 1 + begin.nodes) << 3 | axes;
         }
         std::uint32_t* const of = to_triangles + (begin.triangles - begins[0].triangles);

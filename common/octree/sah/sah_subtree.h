@@ -1,27 +1,26 @@
 #pragma once
-// What is below a small node, built by one thread. See sah_kernels.h.
+// One thread builds all below a small node. See sah_kernels.h.
 #include "common/octree/sah/sah_kernels.h"
 
 namespace swath {
 namespace {
 
-// Where a subtree goes: places of its own, as many as it may need. It begins with nodes[0], its root.
+// Where a subtree is written: memory of its own, as much as it may need. nodes[0] is the root.
 struct SahSubtreeOutput {
-    std::uint32_t* nodes;      // 4 words a node: planes and link, as SahNode's. Children count from nodes[0]
-    std::uint32_t* triangles;  // of leaves, which count from here
+    std::uint32_t* nodes;      // 4 words a node, as in SahNode; links count from nodes[0]
+    std::uint32_t* triangles;  // of the leaves, which count from triangles[0]
     std::uint32_t node_count;
     std::uint32_t triangle_count;
 };
 
-// What a thread works with: places for references, which hold the lists of the nodes that wait on top of one
-// another, and for bins.
+// A thread's memory: a stack of references, which holds the lists of all waiting nodes, and bins.
 struct SahScratch {
     SahReference* references;
     std::uint32_t max_references;
     std::uint32_t* bins;  // kBinWords * (max_bins + 1)
 };
 
-// Cuts along a path from the root, an octree node's three counting as one.
+// The most cuts on a path from the root; an octree node counts as one.
 inline constexpr std::uint32_t kMaxSahDepth = 48;
 
 struct SahPending {
@@ -29,7 +28,7 @@ struct SahPending {
     std::uint32_t node;
     std::uint32_t first;  // in the scratch's references
     std::uint32_t count;
-    std::uint32_t allowed;  // triangles in its leaves
+    std::uint32_t allowed;  // the most triangles in its leaves
     std::uint32_t depth;
 };
 
@@ -64,7 +63,8 @@ SWATH_BOTH SahCut find_cut(const SahPending& at, const SahSettings& settings, co
     return cut;
 }
 
-// Cuts along one axis. Those above the plane close up to the beginning and wait there; those below go on top.
+// Cuts a node across one axis. References above the plane stay in the node's list, those below go on top of
+// the stack. Returns the number of children, 0 if the cut would need too many triangles or too much scratch.
 SWATH_BOTH std::uint32_t cut_in_two(const SahPending& at, int axis, const SahPlane& plane,
                                     SahScratch& scratch, SahSubtreeOutput& out, SahPending* children) {
     std::uint32_t counts[2] = {};
@@ -75,7 +75,7 @@ SWATH_BOTH std::uint32_t cut_in_two(const SahPending& at, int axis, const SahPla
         counts[1] += of >> 1;
     }
     const std::uint32_t needed = higher(counts[0], 1u) + higher(counts[1], 1u);
-    // One more: the last write below may be of one that is above.
+    // One more, because a reference that goes above only is written to *low, too.
     if (needed > at.allowed || at.first + at.count + counts[0] + 1 > scratch.max_references) return 0;
     const SahReference* from = scratch.references + at.first;
     SahReference* high = scratch.references + at.first;
@@ -110,7 +110,8 @@ SWATH_BOTH std::uint32_t cut_in_two(const SahPending& at, int axis, const SahPla
     return 2;
 }
 
-// Cuts along all axes that are worth it: the children's lists go on top.
+// Cuts a node across all axes of `cut`. The children's lists go on top of the stack. Returns like
+// cut_in_two().
 SWATH_BOTH std::uint32_t cut_in_eight(const SahPending& at, const SahCut& cut, SahScratch& scratch,
                                       SahSubtreeOutput& out, SahPending* children) {
     SahReference* const references = scratch.references + at.first;
@@ -164,8 +165,8 @@ SWATH_BOTH std::uint32_t cut_in_eight(const SahPending& at, const SahCut& cut, S
     return made;
 }
 
-// `root`'s references are the first of the scratch's. Depth first: an octree down to settings.kd_triangles,
-// below it the conventional builder, which cuts along the axis that costs least.
+// Builds depth first: an octree down to settings.kd_triangles, below it a kd-tree, cut across the axis that
+// costs least. `root`'s references are the first in the scratch memory.
 SWATH_BOTH void build_subtree(const SahPending& root, const SahSettings& settings, SahScratch& scratch,
                               SahSubtreeOutput& out) {
     SahPending stack[7 * kMaxSahDepth + 1];

@@ -9,10 +9,10 @@
 
 namespace swath {
 
-// A node of a SahTree, 16 bytes. An inner one is cut along one axis (as in a kd-tree), two or all three (an
-// octree node) by a plane each, and has 2, 4 or 8 children, which stand together. A leaf lists triangles.
+// A node of a SahTree, 16 bytes. An inner node is cut by a plane across one axis (a kd-tree's node), two or
+// all three (an octree's) and has 2, 4 or 8 children, which are contiguous. A leaf lists triangles.
 struct SahNode {
-    std::array<float, 3> plane;  // of the axes that are cut
+    std::array<float, 3> plane;  // of the axes that are cut; of a leaf: first() and count() as bits
     std::uint32_t link;  // bits 0 to 2: the axes that are cut, none for a leaf; from bit 3: the first child
 
     static SahNode leaf(std::uint32_t first, std::uint32_t count) {
@@ -25,21 +25,21 @@ struct SahNode {
     bool is_leaf() const { return axes() == 0; }
     std::uint32_t axes() const { return link & 7; }
     bool cuts(int axis) const { return (link >> axis & 1) != 0; }
-    // A child's place is first_child() plus a number with a bit for each axis that is cut, x's lowest: set
-    // where the child is above the plane.
+    // A child's index is first_child() plus a number with one bit for each axis that is cut, x's lowest. The
+    // bit is set if the child is above the plane.
     std::uint32_t first_child() const { return link >> 3; }
     std::uint32_t child_count() const { return 1u << std::popcount(axes()); }
-    // Of a leaf: its part of SahTree::triangles.
+    // first() and count() are a leaf's part of SahTree::triangles.
     std::uint32_t first() const { return std::bit_cast<std::uint32_t>(plane[0]); }
     std::uint32_t count() const { return std::bit_cast<std::uint32_t>(plane[1]); }
 };
 static_assert(sizeof(SahNode) == 16);
-// What a link can point at.
+// The most nodes that a link can tell apart.
 inline constexpr std::size_t kMaxSahNodes = std::size_t{1} << 29;
 
-// A division of space for ray casting: an octree at the top whose planes are chosen by the surface area
-// heuristic, and kd-trees below; or one kd-tree. A triangle stands in every leaf whose box its own box
-// overlaps. A value, deep-copied and immutable once built; any thread may read it.
+// A division of space for ray casting: an octree whose planes are chosen by the surface area heuristic, with
+// kd-trees below, or one kd-tree. A triangle stands in every leaf whose box its own box overlaps. A value,
+// immutable once built; any thread may read it.
 struct SahTree {
     Box box;                     // of all triangles
     std::vector<SahNode> nodes;  // nodes[0] is the root
@@ -50,11 +50,11 @@ struct SahTree {
     }
 };
 
-// What a ray that crosses the tree's box is expected to cost, if it hits nothing: `traversal` for each inner
-// node and `intersection` for each triangle of a leaf, each times the chance of meeting its box, by surface
-// areas (MacDonald and Booth; equation 1 of the SAH octree paper is one step of it). A node that is cut along
+// The expected cost of a ray that crosses the tree's box and hits nothing: `traversal` for each inner node
+// and `intersection` for each triangle of a leaf, times the chance of meeting its box, by surface areas
+// (MacDonald and Booth; equation 1 of the SAH octree paper is one step of it). A node that is cut across
 // several axes counts as the kd nodes that do the same, so that octrees and kd-trees compare. 0 for a box
-// without area, which no ray meets.
+// without area.
 double sah_cost(const SahTree& tree, double traversal, double intersection);
 
 }  // namespace swath

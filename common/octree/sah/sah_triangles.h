@@ -5,8 +5,8 @@
 
 namespace swath {
 
-// The triangles that a tree is built over, in memory of somebody else's: three indices each, and the
-// positions that they point at, three floats that stand `stride` bytes apart.
+// A view of the triangles that a tree is built over: three indices each, into positions of three floats that
+// are `stride` bytes apart.
 struct SahTriangles {
     const std::byte* positions = nullptr;
     std::size_t stride = 0;
