@@ -15,9 +15,9 @@
 namespace swath {
 namespace {
 
-// GenSmoothNormals leaves meshes that have normals alone. Vertices are joined when all that they hold is
-// equal, so what we do not use is removed first. SortByPType splits off points and lines, which are then
-// removed.
+// GenSmoothNormals leaves meshes alone that have normals. Vertices are joined if all of their components are
+// equal, so components that we do not use are removed first. SortByPType splits off points and lines, which
+// are then removed.
 constexpr unsigned int kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                 aiProcess_GenSmoothNormals | aiProcess_SortByPType |
                                 aiProcess_RemoveComponent;
@@ -29,7 +29,7 @@ constexpr int kUnusedComponents = aiComponent_TEXCOORDS | aiComponent_TANGENTS_A
 using Colour = std::array<std::uint8_t, 4>;
 
 std::uint8_t colour_byte(float value) {
-    if (!(value > 0)) return 0;  // also what is no number
+    if (!(value > 0)) return 0;  // also if it is NaN
     return value >= 1 ? std::uint8_t{255} : static_cast<std::uint8_t>(value * 255.0f + 0.5f);
 }
 
@@ -47,11 +47,11 @@ Colour colour_of(const aiMaterial& material) {
 
 glm::dvec3 vec(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
-// A node's transform to the model's coordinates: of points, and of normals.
+// A node's transform of points and normals to the model's coordinates.
 struct Placement {
     glm::dmat3 linear;
     glm::dvec3 offset;
-    glm::dmat3 normals;  // the inverse transpose but for its length; exists also where there is no inverse
+    glm::dmat3 normals;  // the inverse transpose up to a positive factor; exists even without an inverse
 
     explicit Placement(const aiMatrix4x4& m)
         : linear(glm::dvec3(m.a1, m.b1, m.c1), glm::dvec3(m.a2, m.b2, m.c2), glm::dvec3(m.a3, m.b3, m.c3)),
@@ -63,7 +63,7 @@ struct Placement {
 };
 
 Status append(Mesh& mesh, const aiScene& scene, const aiMesh& part, const Placement& placement) {
-    // A small file can place one mesh any number of times, so the limits are checked before growing.
+    // A small file can place one mesh any number of times, so limits are checked before growing.
     if (part.mNumVertices > kMaxVertices - mesh.vertices.size())
         return fail("with all its instances it has more than {} vertices", kMaxVertices);
     if (part.mNumFaces > kMaxTriangles - mesh.triangle_count())
@@ -95,7 +95,8 @@ Status append(Mesh& mesh, const aiScene& scene, const aiMesh& part, const Placem
     return {};
 }
 
-// Depth first, children in their order; not recursive, since a file can nest nodes as deep as it likes.
+// Visits nodes depth first, children in order. It does not recurse, because a file can nest nodes as deeply
+// as it likes.
 Result<Mesh> flatten(const aiScene& scene) {
     struct Visit {
         const aiNode* node;
@@ -116,13 +117,13 @@ Result<Mesh> flatten(const aiScene& scene) {
             open.push_back({child, visit.transform * child->mTransformation});
         }
     }
-    // A model of one material is the same as one that names none.
+    // A model with one material is the same as one without.
     if (std::ranges::adjacent_find(mesh.materials, std::ranges::not_equal_to()) == mesh.materials.end())
         mesh.materials.clear();
     return mesh;
 }
 
-// Assimp's messages may span lines; ours do not.
+// Assimp's messages may have several lines, ours have one.
 std::string one_line(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');

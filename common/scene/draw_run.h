@@ -8,7 +8,7 @@
 
 namespace swath {
 
-// Triangles of one object that are drawn at once: a range of the index buffer, and the id that they get.
+// A range of triangles of one object that are drawn together, and the id that their pixels get.
 struct DrawRun {
     ObjectId object = 0;
     std::uint32_t first_triangle = 0;
@@ -16,7 +16,7 @@ struct DrawRun {
     bool operator==(const DrawRun&) const = default;
 };
 
-// A run for each of `ids`, in their order, of all its triangles. Every id must be below objects.size().
+// The ranges of whole objects, in the order of `ids`. Every id must be below objects.size().
 inline std::vector<DrawRun> whole_objects(std::span<const Object> objects, std::span<const ObjectId> ids) {
     std::vector<DrawRun> runs;
     runs.reserve(ids.size());

@@ -11,33 +11,37 @@ namespace {
 
 using namespace procedural;
 
-// A bone: a shaft that flares out to both ends, around an axis that may be bowed. Lengths in millimetres.
+// A bone is a shaft that flares out to both ends around an axis that may be bowed. Lengths are in
+// millimetres.
 struct Bone {
     glm::dvec3 start;
     glm::dvec3 direction;  // of unit length
     double length = 0;
-    double base = 0;  // radius of the flare at the start, of the shaft, and of the flare at the end
+    // The radii of the flare at the start, of the shaft, and of the flare at the end.
+    double base = 0;
     double shaft = 0;
     double head = 0;
-    double base_cap = 0;  // the length over which each end closes: short is flat, the radius is round
+    // The length over which each end closes: a short one makes it flat, the radius makes it round.
+    double base_cap = 0;
     double head_cap = 0;
-    double base_width = 1;  // cross-sections are ellipses: how wide for one of radius 1, across the back ...
+    // Cross-sections are ellipses: factors of the radius across the back, and from back to palm.
+    double base_width = 1;
     double head_width = 1;
-    double base_depth = 1;  // ... and from back to palm
+    double base_depth = 1;
     double head_depth = 1;
-    double bow = 0;       // how far the middle is lifted to the back, of the length
-    double lumps = 0.02;  // height of the bumps, of the radius
+    double bow = 0;       // how far the middle is lifted to the back, per length
+    double lumps = 0.02;  // height of the bumps, per radius
 };
 
 double square(double x) { return x * x; }
 
-// 1 at the end of a bone, falling to 0 along it; half of it is left after `reach`.
+// Falls from 1 at the end of a bone to 0 along it, and is a half at `reach`.
 double flare(double z, double reach) { return 1 / (1 + square(z / reach) * (z / reach)); }
 
-// A quarter of an ellipse: 0 at the end of a bone, 1 from `cap` on.
+// Rises as a quarter of an ellipse from 0 at the end of a bone to 1 at `cap`, and stays there.
 double closing(double z, double cap) { return std::sqrt(1 - square(std::clamp(1 - z / cap, 0.0, 1.0))); }
 
-// The bone's radius at t of 0 to 1 along it; 0 at both ends.
+// The bone's radius at `t`, 0 to 1 along it. It is 0 at both ends.
 double radius_at(const Bone& bone, double t) {
     const double z = t * bone.length;
     const double left = (1 - t) * bone.length;
@@ -46,12 +50,12 @@ double radius_at(const Bone& bone, double t) {
     return open * closing(z, bone.base_cap) * closing(left, bone.head_cap);
 }
 
-// A bone's outline from end to end, by its length.
+// A bone's outline from end to end, parametrised by its length.
 class Outline {
   public:
     explicit Outline(const Bone& bone) {
         for (std::size_t i = 0; i <= kSteps; ++i) {
-            // Denser at the ends, where the radius changes most.
+            // Steps are denser at the ends, where the radius changes most.
             t_[i] = 0.5 - 0.5 * cosine(0.5 * static_cast<double>(i) / kSteps);
             if (i == 0) continue;
             const double girth =
@@ -64,9 +68,9 @@ class Outline {
         }
     }
     double length() const { return lengths_.back(); }
-    double area() const { return area_; }  // of the surface, about
+    double area() const { return area_; }  // about that of the surface
 
-    // Where the part `share` of the length ends.
+    // The t at which the part `share` of the length ends.
     double t_of(double share) const {
         const double wanted = share * length();
         std::size_t i = 0;
@@ -82,7 +86,7 @@ class Outline {
     double area_ = 0;
 };
 
-// Adds the bone with about `triangles` triangles; returns how many it got.
+// Adds a bone of about `triangles` triangles and returns how many it got.
 std::size_t add_bone(Mesh& mesh, const Bone& bone, const Outline& outline, double triangles,
                      std::uint32_t seed) {
     const double aspect = outline.area() / square(outline.length());  // girth over length
@@ -97,7 +101,7 @@ std::size_t add_bone(Mesh& mesh, const Bone& bone, const Outline& outline, doubl
         const double smooth = t * t * (3 - 2 * t);
         const double width = bone.base_width + (bone.head_width - bone.base_width) * smooth;
         const double depth = bone.base_depth + (bone.head_depth - bone.base_depth) * smooth;
-        // Whole numbers of waves around, so that the surface closes; phases of the bone's own.
+        // The numbers of waves around are whole, so that the surface closes; each bone has phases of its own.
         const double coarse = sine(turn * 2 + t * 1.3 + random(seed, 0)) * sine(t * 2.1 + random(seed, 1)) +
                               sine(turn * 3 - t * 1.7 + random(seed, 2));
         const double fine =
@@ -108,7 +112,7 @@ std::size_t add_bone(Mesh& mesh, const Bone& bone, const Outline& outline, doubl
         vertex.position = bone.start + t * bone.length * bone.direction +
                           (4 * bone.bow * bone.length * t * (1 - t)) * back +
                           radius * (width * cosine(turn) * side + depth * sine(turn) * back);
-        // Ivory, a little browner towards the joints and in hollows.
+        // The bone is ivory, a little browner towards the joints and in hollows.
         const double joint = square(square(2 * t - 1));
         vertex.colour =
             colour(glm::dvec3(0.93, 0.88, 0.78) * (1 + 0.9 * bump) - joint * glm::dvec3(0.05, 0.09, 0.13));
@@ -135,17 +139,16 @@ std::size_t add_bone(Mesh& mesh, const Bone& bone, const Outline& outline, doubl
     return 2 * around * rings;
 }
 
-// A finger's ray: where its metacarpal starts, how far it leans from the middle (turns, positive to the
-// thumb's side), and the lengths of metacarpal and phalanges. The thumb has no middle phalanx.
+// A finger's ray: its metacarpal and phalanges. The thumb has no middle phalanx.
 struct Ray {
-    glm::dvec3 start;
-    double lean;
+    glm::dvec3 start;               // of the metacarpal
+    double lean;                    // from the middle to the thumb's side, in turns
     double lean_step;               // what each joint adds to it
-    std::array<double, 4> lengths;  // 0: not there
+    std::array<double, 4> lengths;  // 0: the bone is missing
     double thickness;
 };
 
-// The fingers bend a little more to the palm at every joint. Turns, from the metacarpal on.
+// The fingers bend a little more to the palm at every joint. In turns, from the metacarpal on.
 constexpr std::array<double, 4> kBend{0.006, 0.042, 0.1, 0.15};
 constexpr double kGap = 1.2;  // in a joint
 
@@ -181,7 +184,7 @@ void add_ray(std::vector<Bone>& bones, const Ray& ray) {
     }
 }
 
-// A carpal bone: an uneven pebble.
+// A carpal bone, which is an uneven pebble.
 Bone pebble(const glm::dvec3& centre, double lean, double width, double length, double depth) {
     Bone bone;
     bone.direction = {-sine(lean), cosine(lean), 0};
@@ -210,7 +213,7 @@ Bone forearm(const glm::dvec3& wrist, double length, double end, double shaft, d
     return bone;
 }
 
-// After the proportions of anatomical tables: lengths of an adult's bones, rounded.
+// The proportions follow anatomical tables: the rounded lengths of an adult's bones.
 std::vector<Bone> hand_bones() {
     std::vector<Bone> bones;
     add_ray(bones, {{0, 2, 1.5}, 0.004, 0.001, {65, 44, 27, 18}, 1.0});
@@ -245,7 +248,7 @@ Mesh make_hand(std::size_t triangles) {
     Mesh mesh;
     mesh.vertices.reserve(triangles / 2 + triangles / 16 + 64);
     mesh.indices.reserve(3 * (triangles + triangles / 8));
-    double owed = 0;  // triangles that earlier bones did not use, so that the sum comes out
+    double owed = 0;  // triangles that earlier bones did not use, so that the sum is right
     for (std::size_t i = 0; i < bones.size(); ++i) {
         owed += static_cast<double>(triangles) * outlines[i].area() / area;
         owed -=

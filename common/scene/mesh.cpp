@@ -5,7 +5,8 @@
 namespace swath {
 namespace {
 
-// In double, so that neither the largest nor the smallest coordinates overflow or vanish when squared.
+// Computes in double, so that squares of the largest coordinates do not overflow and those of the smallest do
+// not vanish.
 std::array<std::int16_t, 3> pack(const glm::dvec3& n) {
     const double length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
     if (!(length > 0) || !std::isfinite(length)) return {0, 0, 32767};
@@ -22,7 +23,7 @@ bool usable(const glm::vec3& point) {
     return true;
 }
 
-// How many of a kind, and where the first one is.
+// Counts things of a kind and keeps the index of the first.
 struct Tally {
     std::size_t count = 0;
     std::size_t first = 0;
@@ -90,7 +91,7 @@ void compute_normals(Mesh& mesh) {
         const std::uint32_t b = mesh.indices[i + 1];
         const std::uint32_t c = mesh.indices[i + 2];
         const glm::dvec3 origin(mesh.vertices[a].position);
-        // Twice the area long, which is the weight.
+        // Its length, twice the triangle's area, is its weight.
         const glm::dvec3 normal = glm::cross(glm::dvec3(mesh.vertices[b].position) - origin,
                                              glm::dvec3(mesh.vertices[c].position) - origin);
         sums[a] += normal;

@@ -22,7 +22,7 @@ bool is_ply(std::string_view name) {
     return std::equal(name.begin(), name.end(), kEnding.begin(), same);
 }
 
-// `rest` is what follows "builtin:": NAME or NAME:TRIANGLES.
+// `rest` follows "builtin:" and is NAME or NAME:TRIANGLES.
 Result<Mesh> load_builtin(std::string_view rest) {
     const std::size_t colon = rest.find(':');
     const std::string name(rest.substr(0, colon));

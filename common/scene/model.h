@@ -9,8 +9,8 @@
 namespace swath {
 
 // Loads a model by its name as users write it: `builtin:NAME`, `builtin:NAME:TRIANGLES` (see procedural.h) or
-// a file's path: PLY by our own reader, all else by Assimp. The mesh is valid (see validate). Deterministic:
-// the same input gives the same mesh, bit for bit. Blocking; any thread.
+// a file's path. Our own reader loads PLY, Assimp all other formats. The mesh is valid (see validate), and
+// the same input gives the same bits. Errors begin with the name. Blocking; any thread.
 Result<Mesh> load_model(const std::string& name);
 
 inline bool is_builtin(std::string_view name) { return name.starts_with("builtin:"); }

@@ -33,8 +33,8 @@ std::size_t bytes_of(const std::vector<T>& values) {
     return values.size() * sizeof(T);
 }
 
-// Copies them behind what `to` points at, which moves on. (To void: GLM's vectors have assignments of their
-// own, which do no more than copy the bytes.)
+// put() and get() copy values and advance the pointer. (The cast to void silences a warning: GLM's vectors
+// have assignments of their own, which do no more than copy the bytes.)
 template <class T>
 void put(const std::vector<T>& values, std::uint8_t*& to) {
     if (!values.empty()) std::memcpy(to, values.data(), bytes_of(values));
@@ -92,7 +92,7 @@ Result<Mesh> read_blob(std::span<const std::uint8_t> bytes) {
         return fail("model blob: does not start with {}", kMagic);
     if (header.version != kVersion)
         return fail("model blob: version {}, this program reads {}", header.version, kVersion);
-    // With all counts below their limits the sum of the sizes cannot overflow 64 bits.
+    // With all counts within their limits the sum of sizes does not overflow 64 bits.
     if (header.vertices > kMaxVertices)
         return fail("model blob: {} vertices, the limit is {}", header.vertices, kMaxVertices);
     if (header.indices > 3 * kMaxTriangles)

@@ -23,7 +23,7 @@ Box box_of(const Mesh& mesh, std::uint32_t first, std::uint32_t count, float pos
     return box;
 }
 
-// Of each triangle, the Morton code of its centre.
+// The Morton codes of the triangles' centres.
 std::vector<MortonKey> morton_keys(const Mesh& mesh, const Box& box) {
     const glm::dvec3 min(box.min);
     const glm::dvec3 size = glm::dvec3(box.max) - min;
@@ -37,7 +37,7 @@ std::vector<MortonKey> morton_keys(const Mesh& mesh, const Box& box) {
     return keys;
 }
 
-// By material, then by code; of one code they keep their order.
+// Sorts stably by material, then by code.
 void sort(std::vector<MortonKey>& keys, const Mesh& mesh) {
     sort_by_code(keys);
     if (mesh.materials.empty()) return;
@@ -51,8 +51,8 @@ void sort(std::vector<MortonKey>& keys, const Mesh& mesh) {
     keys = std::move(sorted);
 }
 
-// The depth asked for, or the one whose number of objects, that is of occupied cells of each material, is
-// closest to the number asked for; the shallower of two that are equally close.
+// The depth asked for, or the one whose number of objects (the occupied cells of each material) is closest to
+// the number asked for; the shallower of two that are equally close.
 int choose_depth(const std::vector<MortonKey>& keys, const Mesh& mesh, const Granularity& granularity) {
     if (granularity.depth) return *granularity.depth;
     std::array<std::size_t, kMaxOctreeDepth + 1> cells{};
@@ -76,7 +76,7 @@ int choose_depth(const std::vector<MortonKey>& keys, const Mesh& mesh, const Gra
     return best;
 }
 
-// Puts keys in the order of sort() into that of the SAH octree's cells, whose numbers replace their codes.
+// Takes keys sorted by sort(), replaces their codes by the numbers of SAH octree cells, and sorts by those.
 void sort_by_sah_cells(std::vector<MortonKey>& keys, const Mesh& mesh, const Box& box, std::size_t objects) {
     std::vector<SahTriangle> triangles(keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i)
@@ -115,7 +115,7 @@ Mesh reorder(const Mesh& mesh, const std::vector<MortonKey>& keys) {
     return result;
 }
 
-// Cuts the object's triangles, whose range is known, into leaves of even size.
+// Cuts an object's range of triangles into leaves of even size, and sets its leaves and boxes.
 void add_leaves(ObjectSet& set, Object& object, std::uint32_t leaf_triangles) {
     const std::uint64_t count = object.triangle_count;
     const std::uint64_t leaves = (count + leaf_triangles - 1) / leaf_triangles;
@@ -175,7 +175,7 @@ ObjectSet build_objects(Mesh mesh, const Granularity& granularity) {
     set.bounds = bounds(mesh);
     std::vector<MortonKey> keys = morton_keys(mesh, set.bounds);
     sort(keys, mesh);
-    // From here on a key's code is its cell's.
+    // From here on a key's code is that of its cell.
     set.cut.by = granularity.by;
     if (granularity.by == ObjectsBy::kSah) {
         set.cut.objects = granularity.objects;

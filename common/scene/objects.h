@@ -12,11 +12,10 @@
 
 namespace swath {
 
-// An atom of partitioning: the triangles of one material whose centres fall in one octree cell (Samanta 2000,
-// section 7, which has no materials). A triangle's centre is that of its bounding box, not the mean of its
-// corners: the paper says centroid and does not define it, and this one comes closer to its number of objects
-// (the Dragon at depth 4 has 1,259 cells with box centres, 1,261 with means, in float and in double alike,
-// and 1,257 in the paper).
+// The unit of partitioning: the triangles of one material whose centres lie in one octree cell (Samanta 2000,
+// section 7, which has no materials). The centre is that of a triangle's bounding box. The paper says
+// centroid and does not define it; box centres come closer to its number of objects than the means of corners
+// do (the Dragon at depth 4: 1,257 in the paper, 1,259 with box centres, 1,261 with means).
 struct Object {
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
@@ -25,12 +24,12 @@ struct Object {
     std::uint32_t material = 0;  // as in Mesh
     Box box;                     // of its whole triangles, not of the cell
     Box end_box = {};            // at pose 1; empty if the model does not move
-    // Around it at a pose of 0 to 1.
+    // Contains the object at a pose, 0 to 1.
     Box box_at(float pose) const { return swath::box_at(box, end_box, pose); }
     bool operator==(const Object&) const = default;
 };
 
-// An atom of culling: some triangles of one object that are near to one another.
+// The unit of culling: triangles of one object that are near each other.
 struct Leaf {
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
@@ -40,43 +39,42 @@ struct Leaf {
     bool operator==(const Leaf&) const = default;
 };
 
-// What an object is a cell of: the uniform octree, all of one depth, or an octree whose planes follow the
+// The octree whose cells objects are: the uniform one, all at one depth, or one whose planes follow the
 // surface area heuristic (common/scene/sah_objects.h).
 enum class ObjectsBy : std::uint8_t { kUniform, kSah };
 std::string_view name_of(ObjectsBy by);
 Result<ObjectsBy> parse_objects_by(std::string_view name);
 
-// How finely to cut: to a depth of the uniform octree, or to the depth that comes closest to a number of
-// objects, or to about so many cells of the SAH octree, which has no one depth; and each object to leaves of
-// a number of triangles.
+// How finely to cut a model into objects, and these into leaves.
 struct Granularity {
-    std::optional<int> depth = std::nullopt;  // 0 to kMaxOctreeDepth; not with kSah
-    std::size_t objects = 1500;               // used when there is no depth; with kSah at least 1
-    // An object has as few leaves as hold this many at most, all of the same size but for one triangle.
-    // Smaller ones drop more and take longer to cull (docs/benchmarks.md has figures).
+    // The depth of the uniform octree, 0 to kMaxOctreeDepth. Without it, the depth that comes closest to
+    // `objects`. Not with kSah, whose octree has no one depth.
+    std::optional<int> depth = std::nullopt;
+    std::size_t objects = 1500;  // wished; with kSah at least 1
+    // An object has as few leaves as can hold at most this many triangles each; their sizes differ by one at
+    // most. Smaller leaves drop more and take longer to cull (docs/benchmarks.md has figures).
     std::uint32_t leaf_triangles = 128;  // at least 1
     ObjectsBy by = ObjectsBy::kUniform;
 };
 inline constexpr int kMaxOctreeDepth = 10;
 inline constexpr std::size_t kMaxObjectsAsked = 1'000'000;
 
-// How a model was cut: all that it takes to cut it so again, on every machine. A value.
+// How a model was cut: all that every machine needs to cut it so again. A value.
 struct Cut {
     ObjectsBy by = ObjectsBy::kUniform;
-    int depth = 0;            // kUniform: of the octree
-    std::size_t objects = 0;  // kSah: the number asked for
+    int depth = 0;            // of the octree, with kUniform
+    std::size_t objects = 0;  // asked for, with kSah
     bool operator==(const Cut&) const = default;
 };
 Granularity granularity_of(const Cut& cut);
-// For people: "octree depth 4".
+// A text for people, like "octree depth 4".
 std::string to_string(const Cut& cut);
 
-// A model cut into objects, and these into leaves. Triangles are stored by material, those of one cell by
-// cell and in a cell in the order of their centres' Morton codes in the model's tight, non-cubic box. So
-// every object is a contiguous range, ascending object ids are ascending triangles and ascending materials,
-// and ascending leaves are ascending triangles too. Cells of the uniform octree follow the Morton codes
-// themselves: there a picture does not depend on the depth. Vertices are numbered by first use. What moves is
-// cut as it is at pose 0. Immutable after build_objects; any thread may read it.
+// A model cut into objects, and these into leaves. Triangles are sorted by material, then by cell, then by
+// the Morton code of their centre in the model's tight, non-cubic box. So every object and every leaf is one
+// range of triangles, and ascending objects and leaves have ascending triangles and materials. The uniform
+// octree's cells follow the Morton codes, so its depth does not change a picture. Vertices are numbered by
+// first use. A moving model is cut as it is at pose 0. Immutable after build_objects; any thread may read it.
 struct ObjectSet {
     Mesh mesh;
     std::vector<Object> objects;  // never empty; objects[id]
@@ -86,9 +84,9 @@ struct ObjectSet {
     Cut cut;
 
     bool moves() const { return !end_bounds.empty(); }
-    // Around all leaves' and objects' boxes at a pose.
+    // Contains the boxes of all leaves and objects at a pose.
     Box bounds_at(float pose) const { return box_at(bounds, end_bounds, pose); }
-    // Around the model at every pose.
+    // Contains the model at every pose.
     Box swept_bounds() const {
         Box box = bounds;
         box.extend(end_bounds);
@@ -96,8 +94,8 @@ struct ObjectSet {
     }
 };
 
-// Deterministic, and the same whether the mesh is the model's or that of a set that was cut from it before:
-// triangles with one Morton code and material always keep their order. `mesh` must be valid (see validate).
+// Cuts a model. `mesh` must be valid (see validate). Deterministic, and the same for the mesh of a set that
+// was cut before, because triangles of one Morton code and material keep their order.
 ObjectSet build_objects(Mesh mesh, const Granularity& granularity);
 
 }  // namespace swath

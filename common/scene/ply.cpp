@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-// Takes a binary body's values one by one. Every integer type of PLY fits in a double.
+// Reads the values of a binary body one by one. Every integer type of PLY fits in a double.
 template <bool kSwapped>
 class BinaryReader {
   public:
@@ -70,13 +70,13 @@ class BinaryReader {
     const std::uint8_t* end_;
 };
 
-// The same for an ASCII body. Line ends count as blanks: rows are known by their properties.
+// The same for an ASCII body. Line ends count as blanks, since the properties say where a row ends.
 class AsciiReader {
   public:
     explicit AsciiReader(std::span<const std::uint8_t> body)
         : at_(reinterpret_cast<const char*>(body.data())), end_(at_ + body.size()) {}
 
-    // One more than there are: the last value of a file needs no blank after it.
+    // One more than there are, because the last value of a file needs no blank behind it.
     std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_) + 1; }
 
     bool read(PlyType, double& value) {
@@ -108,7 +108,7 @@ class AsciiReader {
     const char* end_;
 };
 
-// What a vertex row holds for us, whatever the order of its properties.
+// The properties of a vertex that we use; kIgnored stands for all others.
 enum Slot { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kRed, kGreen, kBlue, kAlpha, kSlots, kIgnored };
 
 Slot slot_named(std::string_view name) {
@@ -119,11 +119,11 @@ Slot slot_named(std::string_view name) {
     return found == kNames.end() ? kIgnored : static_cast<Slot>(found - kNames.begin());
 }
 
-// Floats are 0 to 1, 16 bits are scaled, all other integers are 0 to 255 already.
+// Floats are 0 to 1, 16-bit integers 0 to 65535, all other integers 0 to 255.
 std::uint8_t colour_byte(double value, PlyType type) {
     if (is_float(type)) value *= 255.0;
     if (type == PlyType::Uint16) value /= 257.0;
-    if (!(value > 0)) return 0;  // also what is no number
+    if (!(value > 0)) return 0;  // also if it is NaN
     return value >= 255.0 ? std::uint8_t{255} : static_cast<std::uint8_t>(value + 0.5);
 }
 
@@ -137,7 +137,7 @@ bool is_index_list(const PlyProperty& property) {
     return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-// Refuses what we cannot make a mesh of, before the body is looked at.
+// Fails if the body cannot give a mesh.
 Status check_header(const PlyHeader& header) {
     const PlyElement* vertex = find_element(header, "vertex");
     if (vertex == nullptr) return fail("no element vertex");
@@ -265,7 +265,7 @@ class BodyReader {
         return {};
     }
 
-    // A polygon becomes a fan around its first vertex; one of fewer than three corners is dropped.
+    // Makes a fan around the polygon's first vertex, or nothing of fewer than three corners.
     Status read_polygon(const PlyElement& element, std::uint64_t row, const PlyProperty& list) {
         double corners = 0;
         if (!reader_.read(*list.count_type, corners)) return fail_at(element, row, list);

@@ -9,7 +9,7 @@
 namespace swath {
 namespace {
 
-// Real headers have some hundred bytes; this keeps a body without an end_header from being searched for one.
+// Real headers have some hundred bytes. The limit keeps us from searching a whole body for an end_header.
 constexpr std::size_t kMaxHeaderBytes = 1 << 20;
 constexpr std::size_t kMaxElements = 1000;
 constexpr std::size_t kMaxProperties = 1000;  // of one element
@@ -51,7 +51,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
     return words;
 }
 
-// A line as it may appear in an error: short, and printable whatever the file holds.
+// A line as an error shows it: short, and printable whatever the file holds.
 std::string quoted(std::string_view line) {
     constexpr std::size_t kMost = 60;
     std::string text(line.substr(0, kMost));
@@ -140,7 +140,8 @@ Result<PlyHeader> read_ply_header(std::span<const std::uint8_t> bytes) {
                                 std::min(bytes.size(), kMaxHeaderBytes));
     if (!text.starts_with("ply\n") && !text.starts_with("ply\r"))
         return fail("does not start with a line `ply`");
-    // The first line decides how lines end: after a lone CR, a binary body may start with the byte of LF.
+    // The first line decides how lines end, because after a lone CR a binary body may start with an LF's
+    // byte.
     const char newline = text[3] == '\r' && !text.substr(4).starts_with('\n') ? '\r' : '\n';
 
     PlyHeader header;

@@ -10,7 +10,7 @@
 
 namespace swath {
 
-// What a PLY file's header says is in its body. Nothing in it is trusted: see read_ply.
+// A PLY file's header, which says what its body holds. It is from outside: read_ply checks it.
 enum class PlyFormat { Ascii, LittleEndian, BigEndian };
 enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
 
@@ -28,7 +28,7 @@ struct PlyElement {
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
-    // The bytes that a row takes at least, with all its lists empty.
+    // The fewest bytes that a row takes, which it does if all its lists are empty.
     std::size_t min_row_bytes(PlyFormat format) const;
 };
 

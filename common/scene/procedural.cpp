@@ -16,11 +16,11 @@ using namespace procedural;
 constexpr std::size_t kMinTriangles = 12;
 constexpr std::size_t kMaxBuiltinTriangles = 50'000'000;
 
-// The trefoil: winds twice around the axis of a torus and three times around its tube.
+// The trefoil winds twice around the axis of a torus and three times around its tube.
 struct KnotPoint {
     glm::dvec3 at;
     glm::dvec3 tangent;  // its length is the speed
-    glm::dvec3 outward;  // the torus' normal: of unit length, across the tangent, closes without a twist
+    glm::dvec3 outward;  // the torus' normal, of unit length; it closes without a twist
 };
 
 KnotPoint knot_point(double s) {
@@ -38,7 +38,7 @@ KnotPoint knot_point(double s) {
             {ct * ca, ct * sa, st}};
 }
 
-// The curve's parameter at `count` places, evenly spaced along its length, and that length.
+// The parameters of `count` points that are evenly spaced along the curve, and the curve's length.
 std::vector<double> even_parameters(std::size_t count, double& length) {
     constexpr std::size_t kSteps = 8192;
     std::vector<double> lengths(kSteps + 1, 0);
@@ -80,7 +80,7 @@ Mesh make_knot(std::size_t triangles) {
         const glm::dvec3 base = palette(u);
         for (std::size_t j = 0; j < around; ++j) {
             const double v = static_cast<double>(j) / static_cast<double>(around);
-            // Studs on the crossings of two families of spirals, flat in between.
+            // Makes studs where two families of spirals cross, and is flat in between.
             const double wave = 0.5 + 0.25 * (cosine(kBumpRings * u + kBumpsAround * v) +
                                               cosine(kBumpRings * u - kBumpsAround * v));
             const double bump = wave * wave;
@@ -102,14 +102,14 @@ Mesh make_knot(std::size_t triangles) {
     return mesh;
 }
 
-// The grid of a sphere: close to that number of triangles, and about twice as many slices as stacks, since a
-// sphere of few stacks is a thin double cone.
 struct SphereGrid {
     std::size_t slices = 6;
     std::size_t stacks = 2;
     std::size_t triangles() const { return 2 * slices * (stacks - 1); }
 };
 
+// A grid of close to `triangles` triangles with about twice as many slices as stacks: a sphere of few stacks
+// is a thin double cone.
 SphereGrid sphere_grid(double triangles) {
     SphereGrid best;
     double best_badness = 1e300;
@@ -129,10 +129,10 @@ SphereGrid sphere_grid(double triangles) {
     return best;
 }
 
-// `slices` around and `stacks` from pole to pole.
+// Slices lie around the axis, stacks from pole to pole.
 void add_sphere(Mesh& mesh, const glm::dvec3& centre, double radius, const Colour& paint,
                 const SphereGrid& grid) {
-    // Without a structured binding, which lambdas of clang 14 cannot capture.
+    // Not a structured binding, which clang 14's lambdas cannot capture.
     const std::size_t slices = grid.slices;
     const std::size_t stacks = grid.stacks;
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -166,9 +166,8 @@ void add_sphere(Mesh& mesh, const glm::dvec3& centre, double radius, const Colou
     }
 }
 
-// A cube of 11 x 11 x 11 spheres of many sizes, each anywhere in its cell, so that no line along an axis
-// slips through between them: it meets about fifteen surfaces. Fewer spheres where there are fewer than 48
-// triangles for each.
+// A cube of 11 x 11 x 11 spheres of many sizes, each at a random place in its cell, so that a line along an
+// axis meets about fifteen surfaces. With fewer than 48 triangles for each there are fewer spheres.
 Mesh make_spheres(std::size_t triangles) {
     std::size_t side = 11;
     while (side > 1 && side * side * side * 48 > triangles) --side;
@@ -191,15 +190,14 @@ Mesh make_spheres(std::size_t triangles) {
     return mesh;
 }
 
-// A leaning ring of small spheres in all colours that becomes a globe with the colours in order: each flies
-// to a place that has nothing to do with where it was, across the ring and through all others. Fewer spheres
-// where there are fewer than 96 triangles for each.
+// A leaning ring of small spheres in all colours becomes a globe with the colours in order: each sphere flies
+// through all others to a random place. With fewer than 96 triangles for each there are fewer spheres.
 Mesh make_swarm(std::size_t triangles) {
     constexpr double kRing = 10;   // radius of the ring's middle
     constexpr double kTube = 2.5;  // ... and of its tube
     constexpr double kGlobe = 9;
     const std::size_t spheres = std::clamp<std::size_t>(triangles / 96, 1, 500);
-    // Triangles go by area, so that all are of about one size.
+    // A sphere gets triangles by its area, so that all triangles have about one size.
     std::vector<double> radii(spheres);
     double area = 0;
     for (std::size_t i = 0; i < spheres; ++i) {
@@ -212,7 +210,7 @@ Mesh make_swarm(std::size_t triangles) {
     mesh.vertices.reserve(triangles / 2 + 4 * spheres);
     mesh.indices.reserve(3 * (triangles + triangles / 8));
     mesh.motion.reserve(mesh.vertices.capacity());
-    double owed = 0;  // triangles that earlier spheres did not use, so that the sum comes out
+    double owed = 0;  // triangles that earlier spheres did not use, so that the sum is right
     for (std::size_t i = 0; i < spheres; ++i) {
         const auto seed = static_cast<std::uint32_t>(i);
         const double around = random(seed, 1);
@@ -222,7 +220,7 @@ Mesh make_swarm(std::size_t triangles) {
         const double along = out * sine(around);
         const double across = tube * sine(turn);
         const glm::dvec3 start(out * cosine(around), 0.8 * along - 0.6 * across, 0.6 * along + 0.8 * across);
-        // Even steps up the globe, in an order that the ring does not know: as many on each part of it.
+        // Even steps in height put equally many on equal areas of the globe. The ring has another order.
         const double up = (static_cast<double>(i) + 0.5) / static_cast<double>(spheres);
         const double height = 2 * up - 1;
         const double aside = std::sqrt(1 - height * height);
@@ -239,7 +237,7 @@ Mesh make_swarm(std::size_t triangles) {
     return mesh;
 }
 
-// Builds the town's quads until there are as many as wished.
+// Adds the town's quads until there are as many as wished.
 class TownBuilder {
   public:
     explicit TownBuilder(std::size_t triangles) : left_(triangles / 2) {
@@ -247,8 +245,8 @@ class TownBuilder {
         mesh_.indices.reserve(6 * left_);
     }
 
-    // A face of n x n quads with its corner at `origin`; normal and corner order follow `right` x `up`. A
-    // quad in the middle of each is a window.
+    // Adds a face of n x n quads with a corner at `origin`. Its normal is along `right` x `up`. Quads with
+    // odd row and column are windows.
     void face(const glm::dvec3& origin, const glm::dvec3& right, const glm::dvec3& up, std::size_t n,
               const Colour& wall, const Colour& window) {
         const glm::dvec3 across = glm::cross(right, up);
@@ -282,16 +280,16 @@ class TownBuilder {
 };
 
 constexpr std::size_t kBlockSide = 3;  // houses along a block's side
-constexpr std::size_t kPitch = 4;      // from block to block: a street is as wide as a house
+constexpr std::size_t kPitch = 4;      // from block to block, so a street is as wide as a house
 
-// A house of 1 x height x 1 on the ground at (x, z), all six faces.
+// Adds a house of 1 x height x 1 on the ground at (x, z), with all six faces.
 void add_house(TownBuilder& town, double x, double z, double height, std::size_t n, std::uint32_t seed) {
     const Colour roof = colour({0.45 + 0.25 * random(seed, 3), 0.25, 0.2});
     const Colour floor = colour({0.25, 0.22, 0.2});
     const Colour window = random(seed, 4) < 0.5 ? colour({0.95, 0.85, 0.5}) : colour({0.2, 0.27, 0.36});
     const glm::dvec3 base = palette(random(seed, 2)) * 0.6 + glm::dvec3(0.3);
     const glm::dvec3 up(0, height, 0);
-    // Every face has its own shade, so that a tie which is broken differently can be seen.
+    // Every face has a shade of its own, so that a tie that is broken differently can be seen.
     town.face({x, 0, z + 1}, {1, 0, 0}, up, n, colour(base), window);
     town.face({x + 1, 0, z + 1}, {0, 0, -1}, up, n, colour(base * 0.9), window);
     town.face({x + 1, 0, z}, {-1, 0, 0}, up, n, colour(base * 0.8), window);
@@ -300,9 +298,10 @@ void add_house(TownBuilder& town, double x, double z, double height, std::size_t
     town.face({x, 0, z}, {1, 0, 0}, {0, 0, 1}, n, floor, floor);
 }
 
-// Houses wall to wall; their bottoms lie on the block's paving, that on the town's ground; across each of the
-// four fronts hangs a banner in the plane of the walls. All of these coincide and have different colours, and
-// the large ones have their centres, and so their octree cells, far from much of what they coincide with.
+// Adds houses wall to wall. Their floors lie in the plane of the block's paving and of the ground, and a
+// banner hangs across each of the four fronts in the plane of the walls. All of these coincide and differ in
+// colour, and the large faces have their centres, and so their octree cells, far from much that they coincide
+// with.
 void add_block(TownBuilder& town, std::size_t column, std::size_t row, std::size_t n) {
     const auto x0 = static_cast<double>(column * kPitch);
     const auto z0 = static_cast<double>(row * kPitch);
@@ -311,7 +310,7 @@ void add_block(TownBuilder& town, std::size_t column, std::size_t row, std::size
     double lowest = 1e300;
     for (std::size_t i = 0; i < kBlockSide * kBlockSide; ++i) {
         const auto seed = block + static_cast<std::uint32_t>(i);
-        // Multiples of a quarter: exact in floats, so that equal means coincident.
+        // Multiples of a quarter are exact in floats, so equal heights coincide.
         const double height = 0.75 + 0.25 * std::floor(10 * random(seed, 0) * random(seed, 1));
         lowest = std::min(lowest, height);
         add_house(town, x0 + static_cast<double>(i % kBlockSide), z0 + static_cast<double>(i / kBlockSide),
@@ -335,7 +334,7 @@ constexpr std::size_t block_triangles(std::size_t n) {
 }
 
 Mesh make_town(std::size_t triangles) {
-    std::size_t n = 1;  // quads along a face's side: more of them before there are more than 16 x 16 blocks
+    std::size_t n = 1;  // quads along a face's side; it grows before there are more than 240 blocks
     while (n < 12 && triangles > 240 * block_triangles(n)) ++n;
     const double blocks = static_cast<double>(triangles) / static_cast<double>(block_triangles(n));
     const std::size_t columns = std::max<std::size_t>(1, rounded(std::ceil(std::sqrt(blocks))));

@@ -8,15 +8,10 @@
 
 namespace swath {
 
-// Built-in models, made from a formula: nothing to download, the same bits on every machine that has IEEE
-// arithmetic (they use +, -, *, / and sqrt and our own sine; no libm).
-//   knot     a bumpy torus knot, even small triangles, coloured along its length
-//   spheres  a deep field of spheres: more than ten surfaces behind one another in the middle of the picture
-//   town     boxes on a plane whose faces coincide with their neighbours': exact depth ties everywhere
-//   hand     the bones of a human hand: a stand-in for the Hand of Samanta 2000, which is not to be had, with
-//            as many triangles and, at octree depth 4, about as many objects (643)
-//   swarm    five hundred spheres that move, each along a straight line of its own: what is near at pose 0 is
-//            anywhere at pose 1
+// A model that is made from a formula. It has the same bits on every machine with IEEE arithmetic: formulas
+// use +, -, *, /, sqrt and a sine of our own. builtin_models() says what each shows. `hand` stands in for the
+// Hand of Samanta 2000, which is not available: it has as many triangles and, at octree depth 4, about as
+// many objects (643).
 struct BuiltinModel {
     std::string name;
     std::string what;
@@ -24,8 +19,8 @@ struct BuiltinModel {
 };
 const std::vector<BuiltinModel>& builtin_models();
 
-// The model with about `triangles` triangles: at least 12, at most 50 million; within a few per cent of the
-// wish from a thousand on, roughly below. An unknown name's error lists the names.
+// Makes a model of about `triangles` triangles, 12 to 50 million: within a few per cent from a thousand on.
+// The error for an unknown name lists the names.
 Result<Mesh> make_builtin(const std::string& name, std::size_t triangles);
 
 }  // namespace swath

@@ -20,7 +20,7 @@ double cosine(double turns) { return sine(turns + 0.25); }
 
 namespace {
 
-// The finaliser of MurmurHash3: a well-mixed number for each number.
+// The finaliser of MurmurHash3.
 std::uint32_t hash(std::uint32_t x) {
     x = (x ^ x >> 16) * 0x85ebca6b;
     x = (x ^ x >> 13) * 0xc2b2ae35;

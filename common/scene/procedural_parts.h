@@ -4,25 +4,25 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-// What the formulas of the built-in models are made of: +, -, *, / and sqrt only, so that every machine gets
-// the same bits.
+// Functions for the formulas of the built-in models. They use +, -, *, / and sqrt only, so that every machine
+// gets the same bits.
 namespace swath::procedural {
 
-// The sine of an angle in turns. Our own, because the libraries' differ in their last bits. The reduction is
+// The sine of an angle in turns, because the sines of libraries differ in their last bits. The reduction is
 // exact; the polynomial is Taylor's to degree 17, good to 1e-13 on a quarter turn.
 double sine(double turns);
 double cosine(double turns);
 
-// 0 to 1, a stream of them for each seed.
+// A number of 0 to 1 that looks random and is the same for the same seed and stream.
 double random(std::uint32_t seed, std::uint32_t stream);
 
 using Colour = std::array<std::uint8_t, 4>;
-// Red, green and blue of 0 to 1, clamped; opaque.
+// The opaque colour of red, green and blue, which are clamped to 0 to 1.
 Colour colour(const glm::dvec3& rgb);
-// A closed walk through soft, saturated colours; the hue is in turns.
+// Soft, saturated colours in a closed circle; `hue` is in turns.
 glm::dvec3 palette(double hue);
 
-// To the nearest; `value` is not negative.
+// Rounds `value`, which must not be negative, to the nearest.
 std::size_t rounded(double value);
 
 }  // namespace swath::procedural

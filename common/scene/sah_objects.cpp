@@ -13,19 +13,19 @@
 namespace swath {
 namespace {
 
-constexpr int kCodeCells = 1 << kMortonDepth;  // of Morton codes, along an axis
+constexpr int kCodeCells = 1 << kMortonDepth;  // the cells of Morton codes along an axis
 
-// The tree is over a sample, of so many triangles for each object wanted. Its planes lie about where those of
-// a tree over all would, and building it takes no longer for a larger model.
+// The tree is built over a sample of at most so many triangles for each object wanted. Its planes are about
+// those of a tree over all triangles, and a larger model takes no longer.
 constexpr std::size_t kSampled = 64;
-// A node of less than this part of an object's share of the triangles is not worth a cut.
+// A node with less than this part of an object's share of triangles is not worth a cut.
 constexpr float kSmallestNode = 0.125f;
 
-// An octree over the boxes of every so many-th triangle.
+// An octree over the boxes of a sample of the triangles.
 SahTree build_tree(std::span<const SahTriangle> triangles, std::size_t objects) {
     const std::size_t sample = kSampled * objects;
     const std::size_t step = (triangles.size() + sample - 1) / sample;
-    // Of a box the builder sees a triangle from corner to corner and back.
+    // The builder uses a triangle's box only, so a triangle from corner to corner and back stands for a box.
     std::vector<glm::vec3> corners;
     std::vector<std::uint32_t> indices;
     for (std::size_t i = 0; i < triangles.size(); i += step) {
@@ -43,28 +43,28 @@ SahTree build_tree(std::span<const SahTriangle> triangles, std::size_t objects) 
     auto tree = builder.build(
         {reinterpret_cast<const std::byte*>(corners.data()), sizeof(glm::vec3), corners.size(), indices},
         settings);
-    // A mesh keeps to the builder's other limits.
+    // A valid mesh is within the builder's other limits, so only memory can be missing.
     if (!tree) throw std::bad_alloc();
     return std::move(*tree);
 }
 
-// Where a node is cut, in cells of codes: along each axis the first one that is above the plane.
+// The planes that cut a node, in cells of codes: along each axis the first cell above the plane.
 using Planes = std::array<int, 3>;
 
 struct Cell {
-    std::size_t begin = 0;  // of the cut's order
+    std::size_t begin = 0;  // in the cut's order
     std::size_t end = 0;
-    std::uint32_t node = 0;  // of the tree
+    std::uint32_t node = 0;  // in the tree
     std::size_t objects = 1;
     double cost = 0;
 
-    // The queue's first costs most; of equal ones it is the first in the tree's order.
+    // The queue's first cell costs most; of equal ones it is first in the tree's order.
     bool operator<(const Cell& other) const {
         return cost != other.cost ? cost < other.cost : begin > other.begin;
     }
 };
 
-// The triangles, in an order in which those of every cell stand together.
+// Keeps the triangles in an order in which those of every cell are contiguous.
 class CellCut {
   public:
     CellCut(std::span<const SahTriangle> triangles, const Box& bounds, std::size_t objects)
@@ -83,8 +83,8 @@ class CellCut {
 
     Cell all() { return cell(0, order_.size(), 0); }
 
-    // The parts of it that hold triangles, in the tree's order; a leaf of the tree is cut in the middle. None
-    // if it cannot be cut.
+    // Cuts a cell and returns the parts that hold triangles, in the tree's order. Cuts a leaf of the tree in
+    // the middle. Returns nothing if the cell cannot be cut.
     std::vector<Cell> cut(const Cell& cell) {
         const SahNode& node = tree_.nodes[cell.node];
         const Planes planes = node.is_leaf() ? middle(cell) : planes_of(node);
@@ -119,7 +119,7 @@ class CellCut {
         return at;
     }
 
-    // From 0 without gaps; left out where there is one only.
+    // Numbers the materials that there are from 0 without gaps. A single one gets no numbers.
     void number_materials() {
         std::vector<std::uint32_t> there;
         for (const SahTriangle& triangle : triangles_)
@@ -134,8 +134,8 @@ class CellCut {
         last_cell_.assign(there.size(), 0);
     }
 
-    // Cells that are large and have many triangles come first. That area counts for more is what the
-    // simulator finds best (docs/simulator.md): swaths grow with objects' sizes, not with their triangles.
+    // Large cells with many triangles cost most. Area counts for more, as the simulator finds best
+    // (docs/simulator.md): swaths grow with objects' sizes, not with their triangles.
     Cell cell(std::size_t begin, std::size_t end, std::uint32_t node) {
         Box box;
         for (std::size_t i = begin; i < end; ++i) box.extend(triangles_[order_[i]].box);
@@ -157,7 +157,7 @@ class CellCut {
         return count;
     }
 
-    // A code's cell belongs where its middle is.
+    // A code's cell is on the side of a plane that its middle is on.
     Planes planes_of(const SahNode& node) const {
         Planes planes = kNoPlanes;
         for (int axis = 0; axis < 3; ++axis) {
@@ -171,7 +171,7 @@ class CellCut {
         return planes;
     }
 
-    // Of where its triangles are; at the end of an axis along which all are in one place.
+    // The planes through the middle of the cell's triangles, and none across an axis on which all are equal.
     Planes middle(const Cell& cell) const {
         CodeCell first = at_[order_[cell.begin]];
         CodeCell last = first;
@@ -186,7 +186,7 @@ class CellCut {
         return planes;
     }
 
-    // As children are numbered: a bit for each axis, set above its plane.
+    // The part's number has a bit for each axis, set above its plane, as children are numbered.
     std::size_t part_of(std::uint32_t triangle, const Planes& planes) const {
         const CodeCell& at = at_[triangle];
         return std::size_t{at[0] >= planes[0]} | std::size_t{at[1] >= planes[1]} << 1 |
@@ -199,9 +199,9 @@ class CellCut {
     std::vector<CodeCell> at_;  // of each triangle's code
     std::vector<std::uint32_t> order_;
     std::vector<std::uint32_t> spare_;      // for sorting
-    std::vector<std::uint32_t> materials_;  // of each triangle; empty if there is one only
-    std::vector<std::size_t> last_cell_;    // that had a material
-    std::size_t cells_ = 0;                 // so far
+    std::vector<std::uint32_t> materials_;  // the number of each triangle's; empty if there is only one
+    std::vector<std::size_t> last_cell_;    // of each material: the last cell that had it, counted by cells_
+    std::size_t cells_ = 0;                 // counted so far
 };
 
 }  // namespace

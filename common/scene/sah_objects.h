@@ -7,22 +7,21 @@
 
 namespace swath {
 
-// What the cut by a SAH octree knows of a triangle.
+// A triangle as sah_cells() needs it.
 struct SahTriangle {
     Box box;
     std::uint32_t code = 0;  // of its centre, in the model's box (common/geometry/morton.h)
     std::uint32_t material = 0;
 };
 
-// Cuts a model into the cells of a SAH octree, as many as give about `objects` objects (an object is what one
-// cell has of one material): for each triangle the number of the cell that holds its centre. Cells are
-// numbered from 0 in the tree's depth-first order, so that those with near numbers are near. Beginning with
-// the whole model, the cell that costs most is cut until there are enough: with m materials there are at
-// most 7 m objects more than asked for, and fewer only where no cell has triangles of two codes.
+// Cuts a model into cells of a SAH octree that make about `objects` objects, at least 1 (an object is one
+// cell's triangles of one material). Returns for each triangle, of which there must be one or more, the
+// number of its cell. Numbers count from 0 in the tree's depth-first order, so cells of near numbers are
+// near. Beginning with the whole model, it cuts the cell that costs most until there are enough: with m
+// materials there are at most 7 m objects too many, and too few only if no cell has triangles of two codes.
 //
-// Triangles of one code are in one cell: what decides is the centre of the code's own cell in `bounds`. With
-// it the order of such triangles is the same in every cut (see build_objects). Which cells there are depends
-// on the triangles and their order only; there is at least one triangle, and `objects` is at least 1.
+// All triangles of one code are in one cell, by the centre of the code's own cell in `bounds`, so that their
+// order is the same in every cut (see build_objects). Cells depend on the triangles and their order only.
 std::vector<std::uint32_t> sah_cells(std::span<const SahTriangle> triangles, const Box& bounds,
                                      std::size_t objects);
 
