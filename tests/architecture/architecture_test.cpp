@@ -19,7 +19,7 @@ std::string listed(const std::vector<std::string>& offences) {
     return fmt::format("\n  {}\n", fmt::join(offences, "\n  "));
 }
 
-// The rules, held against the tree.
+// The rules hold in the tree.
 
 TEST(Architecture, TheTreeIsThere) {
     ASSERT_TRUE(our_tree().contains("common/base/check.cpp"));
@@ -46,7 +46,7 @@ TEST(Architecture, ProtobufAsioAndBeastStayWhereTheyBelong) {
     EXPECT_TRUE(offences.empty()) << listed(offences);
 }
 
-// The rules, held against trees that break them.
+// The rules find faults in trees that break them.
 
 TEST(IncludeLines, AreFoundInBothFormsAndNotInComments) {
     EXPECT_THAT(includes_of("#pragma once\n"

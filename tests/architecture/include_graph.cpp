@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What each folder of common may include besides itself. A new folder needs a line here and one in
-// common/README.md.
+// The folders that each folder of common may include besides itself. A new folder needs a line here and one
+// in common/README.md.
 const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     {"common/base", {}},
     {"common/geometry", {"common/base"}},
@@ -24,18 +24,18 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     {"common/image", {"common/base", "common/geometry"}},
     {"common/timeline", {"common/base"}},
     {"common/cull", {"common/base", "common/geometry", "common/scene", "common/octree"}},
-    // Cull and sort together, so it may cull; it knows nothing of meshes.
+    // It culls and sorts in one step, and knows nothing of meshes.
     {"common/resource", {"common/base", "common/geometry", "common/cull"}},
     {"common/render", {"common/base", "common/geometry", "common/scene", "common/image"}},
     {"common/raycast",
      {"common/base", "common/geometry", "common/scene", "common/octree", "common/image", "common/render"}},
-    // Makes what implements the interface in render.
+    // It makes the implementations of the interface in render.
     {"common/renderers", {"common/base", "common/scene", "common/octree", "common/render", "common/raycast"}},
-    // What travels are the values of the layers below.
+    // Messages carry values of the layers below.
     {"common/wire",
      {"common/base", "common/geometry", "common/scene", "common/plan", "common/image", "common/timeline",
       "common/render", "common/cull"}},
-    // What the mains share.
+    // The mains share this.
     {"common/program", {"common/base", "common/image", "common/wire"}},
 };
 
@@ -44,12 +44,12 @@ const std::set<std::string_view> kDecisionFolders = {"client/partition", "client
                                                      "client/director",  "client/path", "server/swap",
                                                      "display/assemble"};
 
-// Where <boost/asio.hpp> may be included: networking. Also in every main.cpp and in tests.
+// Networking folders may include <boost/asio.hpp>, as every main.cpp and tests may.
 const std::set<std::string_view> kAsioFolders = {"common/wire",     "common/program", "client/cluster",
                                                  "client/machines", "client/launch",  "server/session",
                                                  "display/session", "display/view"};
 
-// Where Boost.Beast may be: it takes longest of all to compile.
+// Only these may include Boost.Beast, which compiles the slowest of all.
 const std::set<std::string_view> kBeastFolders = {"display/view", "tests/support"};
 
 std::string_view top_of(std::string_view path) { return path.substr(0, path.find('/')); }
@@ -62,8 +62,8 @@ std::string arrow(std::string_view from, std::string_view to, std::string_view w
     return fmt::format("{} -> {}: {}", from, to, why);
 }
 
-// Finds cycles by a depth-first walk: every arrow back to a node that is still being visited closes one.
-// Reports at least one cycle of every knot, not each of its possibly many.
+// Finds cycles by a depth-first walk: an arrow to a node that is still being visited closes a cycle. Reports
+// at least one cycle of every knot, not each of its possibly many.
 class CycleFinder {
   public:
     explicit CycleFinder(const IncludeGraph& graph) : graph_(graph) {}
@@ -93,7 +93,7 @@ class CycleFinder {
     std::vector<std::string> cycles_;
 };
 
-// Why a file in `from` may not include one in `to`, or nothing. Both are folders of ours.
+// The reason why a file in `from` may not include one in `to`, or nothing. Both are folders of ours.
 std::string_view objection(std::string_view from, std::string_view to) {
     const std::string_view top = top_of(from);
     const std::string_view target = top_of(to);

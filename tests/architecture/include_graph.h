@@ -5,14 +5,13 @@
 #include <string_view>
 #include <vector>
 
-// The include graph of the source tree and the rules it has to obey. Paths are relative to the root, with
+// The include graph of the source tree, and the rules that it must obey. Paths are relative to the root, with
 // '/'.
 namespace swath::architecture {
 
-// The top folders that hold our sources.
 inline constexpr std::string_view kTopFolders[] = {"common", "client", "server", "display", "sim", "tests"};
 
-// Every source file and what it includes, in order: ours as paths from the root, others as written.
+// The includes of every source file, in order: ours as paths from the root, others as written.
 using IncludeGraph = std::map<std::string, std::vector<std::string>>;
 
 // The names in a source's include lines, both "..." and <...>, in order.
@@ -25,9 +24,9 @@ IncludeGraph scan(const std::filesystem::path& root);
 // "common/wire" for common/wire/framing.h, "client" for client/main.cpp.
 std::string folder_of(std::string_view path);
 
-// Each answers with one line per offence, naming the arrow or the whole cycle; empty when the rule holds.
+// Each returns a line per offence, which names the arrow or the whole cycle; empty if the rule holds.
 std::vector<std::string> file_cycles(const IncludeGraph& graph);
-std::vector<std::string> folder_cycles(const IncludeGraph& graph);  // of all folders but those of tests
+std::vector<std::string> folder_cycles(const IncludeGraph& graph);  // all folders but those of tests
 std::vector<std::string> forbidden_arrows(
     const IncludeGraph& graph);  // between top folders and within common
 std::vector<std::string> forbidden_headers(

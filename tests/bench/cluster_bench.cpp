@@ -4,9 +4,9 @@
 
 namespace swath::bench {
 
-// Real processes, no pictures kept. LP_NUM_THREADS=0: every process draws with one thread, so that two
-// servers have the two cores that one process with more threads would have. Runs alternate, ratios are taken
-// pair by pair.
+// Runs real processes that keep no pictures. With LP_NUM_THREADS=0 every process draws with one thread, so
+// that two servers have the two cores that one process with more threads would have. Runs alternate, and
+// ratios are taken pair by pair.
 Status bench_cluster(Figures& figures, const Effort& effort) {
     ::setenv("LP_NUM_THREADS", "0", 1);
     const auto render = [&](const std::vector<std::string>& how) {

@@ -16,7 +16,7 @@ constexpr std::chrono::seconds kPatience(60);
 constexpr std::chrono::milliseconds kBetweenTries(10);
 constexpr int kServers = 4;  // compose.yaml's default
 
-// When it first succeeded.
+// The time of the first success.
 Clock::time_point first_success(const std::function<bool()>& attempt) {
     const auto end = Clock::now() + kPatience;
     while (!attempt()) {
@@ -27,7 +27,7 @@ Clock::time_point first_success(const std::function<bool()>& attempt) {
 }
 
 struct Start {
-    double up_s = 0;       // until `up -d` was back: containers and network are made
+    double up_s = 0;       // until `up -d` returned, with containers and network made
     double page_s = 0;     // until the page was served
     double picture_s = 0;  // until a viewer had the first picture
 };
@@ -40,7 +40,7 @@ Start cold_start(const test::Image& image, const std::string& model) {
         return std::chrono::duration<double>(t - begin).count();
     };
 
-    // Looks while compose is still at it, as a browser's reload would.
+    // Looks while compose is still at work, as a browser's reload would.
     Start start;
     std::exception_ptr failure;
     std::thread looking([&] {

@@ -8,7 +8,7 @@
 namespace swath::bench {
 namespace {
 
-constexpr std::size_t kProcessors = 4;  // as the papers had
+constexpr std::size_t kProcessors = 4;  // as in the papers
 
 struct Published {
     const char* name;
@@ -17,7 +17,7 @@ struct Published {
 constexpr Published kAlgorithms[] = {{"ADSB", PublishedAlgorithm::kAdsb},
                                      {"A2SSB", PublishedAlgorithm::kAlgo1}};
 
-// What the others have less than the busiest, in nodes tested.
+// Nodes that the others tested less than the busiest member, in all.
 double idle_nodes(const WalkReport& report) {
     double most = 0;
     double sum = 0;
@@ -28,8 +28,8 @@ double idle_nodes(const WalkReport& report) {
     return most * static_cast<double>(report.members.size()) - sum;
 }
 
-// The busiest member's share of the nodes, over that of equal shares: 1 is balanced, the team's size is one
-// that works alone.
+// The busiest member's share of the nodes over an equal share: 1 is balanced, the team's size means that one
+// works alone.
 double imbalance(const WalkReport& report) {
     double most = 0;
     double sum = 0;
@@ -67,7 +67,7 @@ Status draw_idle_time(CullingBench& bench) {
                     report = &walk->walk(scene.frustum);
                     idle.push_back(std::chrono::duration<double, std::micro>(report->total_idle).count());
                 }
-                if (report->split_level != level) continue;  // not one that this algorithm allows
+                if (report->split_level != level) continue;  // the algorithm does not allow this level
                 time.points.emplace_back(level, median(idle));
                 count.points.emplace_back(level, idle_nodes(*report));
             }

@@ -5,7 +5,7 @@ namespace swath::bench {
 Status bench_culling(Figures& figures, const Effort& effort) {
     const SteadyClock clock;
     CullingBench bench{figures, effort, clock};
-    if (!effort.out.empty()) {  // before minutes of measuring, not after
+    if (!effort.out.empty()) {  // fails before minutes of measuring, not after
         std::error_code error;
         std::filesystem::create_directories(effort.out, error);
         if (error) return fail("{}: {}", effort.out.string(), error.message());

@@ -22,22 +22,23 @@ struct CullingBench {
     std::size_t count(std::size_t full) const { return effort.smoke ? full / 200 : full; }
 };
 
-// same_nodes_*, a2ssb_2t, early_out_*.
+// Figures same_nodes_*, a2ssb_2t, early_out_*.
 Status bench_trees(CullingBench& bench);
-// objects_*, refit_1m_ms, cull_sort_1m.
+// Figures objects_*, refit_1m_ms, cull_sort_1m.
 Status bench_objects(CullingBench& bench);
-// sort_1m_vs_std.
+// Figure sort_1m_vs_std.
 Status bench_sorts(CullingBench& bench);
-// loaded_vs_1t.
+// Figure loaded_vs_1t.
 Status bench_loaded(CullingBench& bench);
 
-// Pictures, with their numbers as CSV, into `bench.effort.out`: what both papers leave as future work.
+// Each draws pictures, with their numbers as CSV, into `bench.effort.out`: both papers leave these as future
+// work.
 Status draw_time_over_nodes(CullingBench& bench);
 Status draw_idle_time(CullingBench& bench);
 Status draw_walk(CullingBench& bench);
 Status draw_time_over_resources(CullingBench& bench);
 
-// (shader, texture, mesh) of each object at random, as keys of a space of `points` points.
+// Random (shader, texture, mesh) of each object, as keys of a space of `points` points.
 std::vector<std::uint32_t> random_keys(std::size_t count, std::uint64_t points, unsigned seed);
 
 }  // namespace swath::bench

@@ -12,7 +12,7 @@
 namespace swath::bench {
 namespace {
 
-// A child process for every core, which keeps it busy as long as this lives.
+// Keeps every core busy, with a child process each, as long as it lives.
 class Load {
   public:
     Load() {
@@ -45,8 +45,8 @@ class Load {
 
 }  // namespace
 
-// Mean times of many frames: what a neighbour takes from us comes in slices of milliseconds, many frames
-// long, and would not show in the best of a few.
+// Compares mean times of many frames: another process takes slices of milliseconds, many frames long, which
+// would not show in the best of a few.
 Status bench_loaded(CullingBench& bench) {
     const BoxSet set = random_boxes(bench.count(1'000'000), 1);
     const Frustum frustum = object_scenes(set.view_bounds)[1].frustum;  // k30

@@ -21,7 +21,6 @@ constexpr const char* kFlat = "flat scan";
 constexpr const char* kOurs = "ours";
 constexpr const char* kOursTwo = "ours, 2 threads";
 
-// The boxes in every structure.
 struct Structures {
     Structures(const BoxSet& set, CullingBench& bench, bool in_order)
         : octree(set.boxes),
@@ -39,7 +38,7 @@ struct Structures {
     std::optional<BulletTree> bullet;
 };
 
-// A million boxes are about as much as the last cache holds: it takes a few frames until they are all there.
+// A million boxes about fill the last cache, so it takes a few frames until all are in it.
 constexpr int kFrames = 5;
 
 Result<Race> race_objects(const BoxSet& set, const ObjectScene& scene, Structures& in, int repetitions) {
@@ -63,10 +62,9 @@ std::string title_of(const BoxSet& set) {
     return fmt::format("{} boxes, {}, one thread unless said", set.boxes.size(), set.name);
 }
 
-// The worst of several scenes: the samples with the least median.
+// Keeps the samples of the worst scene, by their median.
 class Worst {
   public:
-    // `better`: greater is better.
     void offer(std::vector<double> samples, const std::string& scene, bool greater_is_better) {
         const bool worse = samples_.empty() || (greater_is_better ? median(samples) < median(samples_)
                                                                   : median(samples) > median(samples_));
@@ -82,8 +80,8 @@ class Worst {
     std::string scene_;
 };
 
-// Culling and sorting together; the papers' way keeps lists by resource, whose order within a resource is
-// that of the octree.
+// Races culling and sorting in one step. The papers' way keeps lists by resource, each in the order of the
+// octree.
 Status race_cull_and_sort(CullingBench& bench, const BoxSet& set, Structures& in, Worst& worst) {
     const std::vector<std::uint32_t> keys = random_keys(set.boxes.size(), kPoints, 3);
     auto literal = LiteralSort::make(keys, kPoints, bench.one);
@@ -98,7 +96,7 @@ Status race_cull_and_sort(CullingBench& bench, const BoxSet& set, Structures& in
             "ALGO5, literal R and M", [&] { *last = literal->sort(in.octree.cull(scene.frustum)); },
             [&] {
                 Race::Ids ids(last->begin(), last->end());
-                // Sorted by key already, or else this does not help.
+                // They are sorted by key already; if not, this must not hide it.
                 const auto by_key = [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; };
                 if (std::ranges::is_sorted(ids, by_key))
                     std::ranges::sort(ids, [&](std::uint32_t a, std::uint32_t b) {
@@ -134,7 +132,7 @@ Result<std::vector<BoxSet>> million(CullingBench& bench) {
     return sets;
 }
 
-// Boxes that move to and fro, in milliseconds.
+// Milliseconds to refit boxes that move to and fro.
 std::vector<double> refit_times(CullingBench& bench, const BoxSet& set) {
     std::vector<Box> moved = set.boxes;
     for (Box& box : moved) {

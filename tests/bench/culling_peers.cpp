@@ -1,6 +1,6 @@
 #include "tests/bench/culling_peers.h"
 
-// Bullet's headers assign by cases in a way that GCC does not see through.
+// GCC does not see that Bullet's headers assign in every case.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
@@ -14,9 +14,9 @@
 namespace swath::bench {
 
 struct BulletTree::Nodes {
-    btDbvt tree;  // its root alone is used: it would delete what it owns
+    btDbvt tree;  // only its root is used: the tree would delete what it owns
     btAlignedObjectArray<btDbvtNode> nodes;
-    // Of these boxes, not none, which it puts in order.
+    // Builds over one box or more, and puts `ids` in the tree's order.
     btDbvtNode* build(std::span<const Box> boxes, std::span<std::uint32_t> ids);
 };
 
@@ -36,7 +36,7 @@ btVector3 vector(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
 btDbvtNode* BulletTree::Nodes::build(std::span<const Box> boxes, std::span<std::uint32_t> ids) {
     nodes.push_back({});
-    btDbvtNode* node = &nodes[nodes.size() - 1];  // stays where it is: the array was reserved
+    btDbvtNode* node = &nodes[nodes.size() - 1];  // stays in place, since the array is reserved
     node->parent = nullptr;
     if (ids.size() == 1) {
         const Box& box = boxes[ids[0]];

@@ -31,8 +31,8 @@ class BulletTree {
     std::vector<std::uint32_t> visible_;
 };
 
-// `ids` without what rounding decides: boxes whose distance to a plane is 0 but for a rounding error are in
-// if they are not outside() by our plane expression, whatever `ids` say. Ascending.
+// `ids` without the boxes that rounding decides: a box whose distance to a plane is 0 but for a rounding
+// error is in if our plane expression says that it is not outside(), whatever `ids` say. Ascending.
 std::vector<std::uint32_t> settle_rounding(std::span<const std::uint32_t> ids, std::span<const Box> boxes,
                                            const Frustum& frustum);
 

@@ -17,9 +17,9 @@ namespace {
 constexpr int kWidth = 1280;
 constexpr int kHeight = 960;
 constexpr std::size_t kCameras = 8;
-constexpr std::uint32_t kWholeObjects = 0xffff'ffff;  // triangles: each object is its own leaf
+constexpr std::uint32_t kWholeObjects = 0xffff'ffff;  // triangles in a leaf: each object is its own leaf
 
-// What one server of one frame draws.
+// The drawing of one server in one frame.
 struct Task {
     View view;
     std::vector<ObjectId> group;
@@ -27,10 +27,10 @@ struct Task {
 };
 using Frame = std::vector<Task>;
 
-// What frames took, all servers added up.
+// The cost of frames, summed over servers.
 struct Cost {
     double triangles = 0;
-    double cull_us = 0;  // CPU time, so that what others do on this machine hardly shows
+    double cull_us = 0;  // CPU time, which other processes hardly disturb
     double render_ms = 0;
 };
 
@@ -49,7 +49,8 @@ Status draw(Renderer& renderer, LeafCull& cull, const Frame& frame, Cost& cost) 
     return {};
 }
 
-// Every frame culled by object and by leaf in turn, with one renderer: the triangles' order is the same.
+// Culls every frame by object and by leaf in turn, and draws with one renderer: the triangles' order is the
+// same.
 Status measure(Figures& figures, const Effort& effort, const std::string& name, const ObjectSet& coarse,
                const ObjectSet& fine, const std::vector<Frame>& frames) {
     auto renderer = make_renderer(RendererSetup{}, coarse);
@@ -69,7 +70,7 @@ Status measure(Figures& figures, const Effort& effort, const std::string& name, 
             for (std::size_t way = 0; way < culls.size(); ++way)
                 if (const auto status = draw(**renderer, culls[way], frame, costs[way]); !status)
                     return status;
-        if (i < 0) continue;  // that was for the caches and Mesa's shaders
+        if (i < 0) continue;  // a warm-up for the caches and Mesa's shaders
         for (std::size_t way = 0; way < culls.size(); ++way) {
             triangles[way].push_back(costs[way].triangles / count);
             cull_us[way].push_back(costs[way].cull_us / count);
@@ -87,7 +88,7 @@ Status measure(Figures& figures, const Effort& effort, const std::string& name, 
     return {};
 }
 
-// One process in the middle of the model, which turns round.
+// Frames of one process in the middle of the model, turning round.
 Result<std::vector<Frame>> from_inside(const ObjectSet& scene) {
     std::vector<ObjectId> all(scene.objects.size());
     std::iota(all.begin(), all.end(), ObjectId{0});
@@ -104,7 +105,7 @@ Result<std::vector<Frame>> from_inside(const ObjectSet& scene) {
     return frames;
 }
 
-// Four sort-first servers, the camera around the model.
+// Frames of four sort-first servers, with the camera around the model.
 Result<std::vector<Frame>> mahd_of_four(const ObjectSet& scene) {
     const auto cameras = make_path("orbit", scene.bounds, {kCameras, 1, 4.0f / 3.0f, 1.0f});
     if (!cameras) return tl::unexpected(cameras.error());
@@ -124,7 +125,7 @@ Status measure_model(Figures& figures, const Effort& effort, const std::string& 
                      const std::string& model, Result<std::vector<Frame>> (*frames_of)(const ObjectSet&)) {
     const auto mesh = load_model(model);
     if (!mesh) return tl::unexpected(mesh.error());
-    // As many objects as by default, and few: then an object is much larger than a leaf.
+    // Takes the default number of objects, and a small one, with objects much larger than a leaf.
     for (const std::size_t objects : {std::size_t{1500}, std::size_t{100}}) {
         const ObjectSet coarse = build_objects(*mesh, {.objects = objects, .leaf_triangles = kWholeObjects});
         const ObjectSet fine = build_objects(*mesh, {.objects = objects});

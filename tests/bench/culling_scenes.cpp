@@ -40,7 +40,7 @@ Frustum wide_frustum(const Eye& eye) { return frustum_of(eye, 1600, 1000); }
 
 float edge_of(int height) { return std::ldexp(1.0f, height); }
 
-// Inside of `box`, less `margin` on all sides.
+// The inside of `box`, less `margin` on all sides.
 Frustum orthographic(const Box& box, float margin) {
     const glm::vec3 low = box.min + margin;
     const glm::vec3 high = box.max - margin;
@@ -59,7 +59,7 @@ void sort_by_place(std::vector<Box>& boxes) {
     boxes = std::move(sorted);
 }
 
-// Longest first; of equal ones y, x, z.
+// Longest first; equal ones in the order y, x, z.
 std::array<int, 3> axes_by_length(const Box& box) {
     std::array<int, 3> axes{1, 0, 2};
     std::ranges::stable_sort(axes, std::greater{}, [&](int axis) { return box.size()[axis]; });
@@ -199,7 +199,7 @@ std::vector<ObjectScene> object_scenes(const Box& bounds) {
     glm::vec3 up(0);
     up[axes[2]] = 1;
     const float near = 0.00025f * edge;
-    // Wide enough that no box sticks out: the ground of a cloud has no end.
+    // Wide enough that no box sticks out: clouds have no bounds.
     Box everything{bounds.min - edge, bounds.max + edge};
     return {{"c60", wide_frustum({bounds.centre(), along, up, 60, near, 2 * edge})},
             {"k30", wide_frustum({bounds.min, bounds.size(), up, 30, near, 2 * edge})},

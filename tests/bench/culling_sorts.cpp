@@ -20,7 +20,7 @@ std::vector<std::uint32_t> some_of(std::size_t count, std::size_t visible, unsig
     return ids;
 }
 
-// As one would: key and id in 64 bits.
+// The obvious way: std::sort of key and id in 64 bits.
 class StdSort {
   public:
     explicit StdSort(std::span<const std::uint32_t> keys) : keys_(keys) {}
@@ -109,7 +109,7 @@ Status bench_sorts(CullingBench& bench) {
             (*sorts)->race(fmt::format("chosen: {}", name_of(method)), visible, bench.repetitions(9));
         if (!race) return tl::unexpected(race.error());
         races.push_back(*race);
-        // A frame of a thousand objects is no matter of sorting.
+        // With a thousand objects a frame's sorting does not matter.
         const auto ratios = race->ratios("std::sort", "chosen");
         if (per_mille >= 90 && (least.empty() || median(ratios) < median(least))) {
             least = ratios;

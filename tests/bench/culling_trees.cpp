@@ -20,7 +20,7 @@ constexpr const char* kSameTwo = "ours, every node, 2 threads";
 constexpr const char* kOurs = "ours";
 constexpr const char* kOursTwo = "ours, 2 threads";
 
-// A race over one tree; the first is ALGO5.
+// A race over one tree; the first runner is ALGO5.
 class TreeRace {
   public:
     TreeRace(CullingBench& bench, const PointerOctree& tree, const TreeScene& scene, std::string title)
@@ -44,12 +44,12 @@ class TreeRace {
         add(kTwoStepBreadth, PublishedAlgorithm::kAlgo3, bench_.two);
         add(kDelayed, PublishedAlgorithm::kAdsb, bench_.two);
     }
-    // Every node that ALGO5 tests is tested.
+    // These test every node that ALGO5 tests.
     void add_every_node() {
         add_ours(kSame, bench_.one, &WideOctree::cull_same_nodes);
         add_ours(kSameTwo, bench_.two, &WideOctree::cull_same_nodes);
     }
-    // What is inside is not tested further.
+    // These test nothing below a node that is inside.
     void add_early_out() {
         add_ours(kOurs, bench_.one, &WideOctree::cull);
         add_ours(kOursTwo, bench_.two, &WideOctree::cull);
@@ -105,7 +105,7 @@ Status bench_whole_tree(CullingBench& bench) {
     return {};
 }
 
-// ALGO5 gains or loses by where its nodes lie.
+// Shows that ALGO5's speed depends on where its nodes lie.
 Status bench_allocation(CullingBench& bench) {
     const int height = bench.height(6);
     const TreeScene scene = whole_tree(height);

@@ -7,11 +7,11 @@
 
 namespace swath::bench {
 
-// A published algorithm as a runner. Every member's leaves stay where it left them: to join them is no part
-// of these algorithms.
+// Adds a published algorithm as a runner. The leaves of every member stay where it left them, since these
+// algorithms do not join them.
 void add_walk(Race& race, std::string name, std::shared_ptr<PublishedWalk> walk, const Frustum& frustum);
 
-// The split level at which the walk's frames are shortest; forces it.
+// Finds the split level of the shortest frames, and forces it.
 int force_best_split_level(PublishedWalk& walk, const Frustum& frustum, int height);
 
 }  // namespace swath::bench

@@ -7,14 +7,14 @@
 
 namespace swath::bench {
 
-// What a benchmark found: named figures with their noise, printed as a table and written as JSON.
+// The results of a benchmark: named figures with their noise, printed as a table and written as JSON.
 class Figures {
   public:
-    // The figure is the samples' median, its noise (max - min) / median. `bar` says what it is held against,
-    // for people.
+    // Adds a figure: the samples' median, with the noise (max - min) / median. `bar` says, for people, what
+    // it is compared with.
     void add(const std::string& name, std::vector<double> samples, const std::string& unit,
              const std::string& bar);
-    // A line for people that is no figure.
+    // Adds a line for people.
     void note(const std::string& text) { notes_.push_back(text); }
 
     std::string to_text(const std::string& benchmark) const;  // with machine and commit
@@ -35,32 +35,32 @@ class Figures {
 
 double median(std::vector<double> samples);
 
-// What to render and how often: the Dragon for figures; a small built-in model, once, to see that a benchmark
-// runs.
+// The model to render, and how often: the Dragon for figures; a small built-in model, once, to see that a
+// benchmark runs.
 struct Effort {
     std::string model;
     int repetitions = 1;
     std::size_t frames = 2;
     bool smoke = false;
-    std::filesystem::path out = {};  // folder for tables and plots; empty for none
+    std::filesystem::path out = {};  // folder for tables and plots; empty: none
 };
-// The Dragon from ../shared/models, else models/ as script/fetch-models leaves it. Without it an error, if
-// the benchmark needs it.
+// The Dragon from ../shared/models, else from models/, where script/fetch-models puts it. An error if it is
+// missing and the benchmark needs it.
 Result<Effort> full_effort(bool needs_model);
 Effort smoke_effort();
 
-// A program run to its end.
+// A program that has ended.
 struct Finished {
     int exit_code = -1;
     double cpu_s = 0;  // of the program and all its descendants, user and system
     double wall_s = 0;
     std::string output;           // stdout
-    double frames_per_s() const;  // as swath-client's summary says it; 0 if it does not
+    double frames_per_s() const;  // from swath-client's summary; 0 without it
 };
 Finished run_program(const std::vector<std::string>& command);
 std::string client_program();  // swath-client beside this program
 
-// One benchmark a function; errors are what is missing (a model, a program).
+// Each runs one benchmark. Errors: something is missing (a model, a program).
 Status bench_culling(Figures& figures, const Effort& effort);  // draws plots
 Status bench_octree(Figures& figures, const Effort& effort);   // draws plots
 Status bench_cluster(Figures& figures, const Effort& effort);

@@ -6,7 +6,7 @@
 
 namespace swath::bench {
 
-// File to objects, as a server does it; the file is in the page cache after the first time.
+// Times file to objects, as in a server; from the second time on the file is in the page cache.
 Status bench_load(Figures& figures, const Effort& effort) {
     std::vector<double> total;
     std::vector<double> reading;

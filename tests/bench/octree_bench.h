@@ -21,7 +21,7 @@ struct OctreeBench {
     const Effort& effort;
     std::vector<OctreeScene> scenes;
 
-    // Of a scene without figures, whose numbers are for tables, fewer.
+    // Fewer for a scene without figures, whose numbers are only for tables.
     int repetitions(const OctreeScene& scene, int full) const {
         if (effort.smoke) return 1;
         return scene.has_bars ? full : std::min(full, 3);
@@ -29,26 +29,26 @@ struct OctreeBench {
     bool draws() const { return !effort.out.empty(); }
 };
 
-// build_vs_kdtree_*, sah_cost_vs_kdtree_*, build_vs_embree_medium_*, build_fast_vs_embree_low_*: what
-// builders need and what their trees are like.
+// Figures build_vs_kdtree_*, sah_cost_vs_kdtree_*, build_vs_embree_medium_*, build_fast_vs_embree_low_*: the
+// time of builders and the quality of their trees.
 Status bench_octree_builds(OctreeBench& bench);
-// rays_vs_embree_*: primary rays, and what a ray meets.
+// Figures rays_vs_embree_*: primary rays, and the work of each.
 Status bench_octree_rays(OctreeBench& bench);
-// By the number of threads.
+// Times by number of threads.
 Status bench_octree_scaling(OctreeBench& bench);
-// What settings trade for what: into files of `bench.effort.out`, and as tables.
+// Varies settings; writes files into `bench.effort.out`, and tables.
 Status bench_octree_trade(OctreeBench& bench);
 
 inline constexpr std::size_t kBuildThreads = 2;
 
-// An entrant for Race::add_work: builds a tree for which it frees the one before first, unmeasured.
+// A runner for Race::add_work that builds a tree. prepare() frees the tree before, unmeasured.
 class OurBuild {
   public:
-    // Each build with `fresh` a builder that has no memory yet.
+    // With `fresh`, each build has a new builder, without memory.
     OurBuild(const OctreeScene& scene, const SahSettings& settings, std::size_t threads, bool fresh = false);
     void prepare();
     void build();
-    // What was built last; before that, builds.
+    // The last tree; builds one if there is none.
     Result<SahTree> tree();
 
   private:
@@ -60,7 +60,7 @@ class OurBuild {
     Result<SahTree> tree_ = fail("nothing built yet");
 };
 
-// The same for Embree: a new scene each time; or, with `again`, the same scene over and over.
+// The same for Embree: each build makes a new scene, or, with `again`, builds the same scene anew.
 class EmbreeBuild {
   public:
     EmbreeBuild(const OctreeScene& scene, EmbreeDevice& device, EmbreeQuality quality, bool again = false);
@@ -83,7 +83,7 @@ void add_build(Race& race, const std::string& name, Build& build) {
         name, [&build] { build.prepare(); }, [&build] { build.build(); });
 }
 
-// As EmbreeScene::cast, for our trees.
+// Does the same as EmbreeScene::cast with our trees.
 std::uint64_t cast_ours(const OctreeScene& scene, const SahTree& tree, InstructionSet set,
                         const RayView& view, int first_row, int last_row, float* distances);
 

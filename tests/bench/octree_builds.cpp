@@ -52,8 +52,8 @@ constexpr const char* kLowAgain = "Embree low, same scene again";
 constexpr const char* kMediumAgain = "Embree medium, same scene again";
 
 struct Leaves {
-    std::size_t count = 0;  // without empty ones
-    double triangles = 0;   // of one
+    std::size_t count = 0;  // not counting empty ones
+    double triangles = 0;   // in a leaf, on average
 };
 Leaves leaves_of(const SahTree& tree) {
     Leaves leaves;
@@ -133,7 +133,7 @@ Status bench_scene(OctreeBench& bench, const OctreeScene& scene, sim::Bars::Grou
     add_build(quick, kLowAgain, low_again);
     quick.run(bench.repetitions(scene, 9), bench.effort.smoke ? 1 : 2);
 
-    // What Embree has allocated, of a scene alone.
+    // The bytes that Embree has allocated for a scene alone.
     const auto embree_bytes = [&](EmbreeQuality quality) {
         EmbreeDevice alone(kBuildThreads);
         EmbreeBuild build(scene, alone, quality);

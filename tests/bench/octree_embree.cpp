@@ -27,7 +27,7 @@ RTCBuildQuality quality_of(EmbreeQuality quality) {
     return RTC_BUILD_QUALITY_HIGH;
 }
 
-// Denormal numbers taken for 0, as Embree's manual asks of whoever casts rays.
+// Makes denormal numbers 0, as Embree's manual asks of threads that cast rays.
 class NoDenormals {
   public:
     NoDenormals(const NoDenormals&) = delete;

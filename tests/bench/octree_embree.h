@@ -7,7 +7,7 @@
 #include "common/scene/mesh.h"
 #include "tests/bench/octree_scenes.h"
 
-// Embree 3, which we measure against.
+// Embree 3, a peer in the benchmarks.
 namespace swath::bench {
 
 enum class EmbreeQuality { kLow, kMedium, kHigh };
@@ -15,7 +15,7 @@ enum class EmbreeQuality { kLow, kMedium, kHigh };
 // Must outlive its scenes.
 class EmbreeDevice {
   public:
-    // `threads` build together. `isa` as its configuration has it ("avx2"); empty: what the processor has.
+    // Builds with `threads`. `isa` is as in Embree's configuration ("avx2"); empty: the processor's best.
     explicit EmbreeDevice(std::size_t threads, const std::string& isa = {});
     ~EmbreeDevice();
 
@@ -28,20 +28,19 @@ class EmbreeDevice {
 // A hierarchy over a mesh whose buffers it shares: the mesh must outlive it.
 class EmbreeScene {
   public:
-    // `rebuilt`: made for being built again and again, so that it keeps its memory.
+    // `rebuilt`: it will be built again and again, so it keeps its memory.
     EmbreeScene(EmbreeDevice& device, const Mesh& mesh, EmbreeQuality quality, bool rebuilt = false);
     ~EmbreeScene();
 
-    // Builds it.
     void commit();
     // Says that all positions have changed, so that commit() builds it again.
     void touch();
-    // What the device has allocated for it: of the only scene since it was made.
+    // Bytes that the device has allocated since it was made, for this, its only scene.
     std::size_t bytes() const;
 
-    // How many rays of these rows of the view hit something, by packets of 16 with the hint that they are
-    // coherent. Where `distances` are asked for, pixel by pixel of the whole view: along the view, infinite
-    // for none.
+    // Counts the rays of these rows of the view that hit something, in packets of 16 with the hint that they
+    // are coherent. `distances`, unless null, get a value for each pixel of the whole view: along the view,
+    // infinite if the ray hits nothing.
     std::uint64_t cast(const RayView& view, int first_row, int last_row, float* distances) const;
 
   private:

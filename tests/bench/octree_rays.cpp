@@ -15,7 +15,7 @@ std::uint64_t cast_ours(const OctreeScene& scene, const SahTree& tree, Instructi
     const KernelTree kernel = kernel_tree(tree, scene.corners);
     const auto nearest = packet_kernels(set).nearest_by_depth;
     const TileRays rays(view);
-    // Depth as the rasteriser has it: 0 at the near plane, 1 at the far one.
+    // Depth as in the rasteriser: 0 at the near plane, 1 at the far one.
     const float offset = view.far / (view.far - view.near);
     RayPacket packet{};
     packet.depth_scale = offset * view.near;
@@ -48,11 +48,11 @@ using Cast = std::function<std::uint64_t(const RayView&, float* distances)>;
 struct Caster {
     std::string name;
     Cast cast;
-    // Finds what the other casters find that say so, to the last bit.
+    // Finds the same as all other exact casters, to the last bit.
     bool exact;
 };
 
-// A picture's distances of all views.
+// The distances of all pixels of all views.
 std::vector<float> distances_of(const OctreeScene& scene, const Cast& cast, std::uint64_t& hits) {
     std::vector<float> distances(scene.rays());
     float* first = distances.data();
@@ -66,7 +66,7 @@ std::vector<float> distances_of(const OctreeScene& scene, const Cast& cast, std:
 
 struct Difference {
     std::size_t hits = 0;       // one hits and the other does not
-    std::size_t distances = 0;  // both do, at distances that differ by more than a thousandth
+    std::size_t distances = 0;  // both hit, at distances that differ by more than a thousandth
 };
 Difference compare(const std::vector<float>& one, const std::vector<float>& other) {
     Difference difference;
@@ -79,12 +79,12 @@ Difference compare(const std::vector<float>& one, const std::vector<float>& othe
     return difference;
 }
 
-// Edges round one way or the other: so many of the rays may differ, at most, and a few of a small picture.
+// Edges round one way or the other: at most this share of the rays may differ, or a few in a small picture.
 constexpr double kTolerated = 1e-4;
 constexpr double kFew = 4;
 
-// An error if casters do not see the same, the first being what the others are held against; else what is
-// different at edges.
+// Compares casters with the first one. An error if they see different things; else says what differs at
+// edges.
 Result<std::string> check(const OctreeScene& scene, const std::vector<Caster>& casters) {
     std::uint64_t expected_hits = 0;
     const std::vector<float> expected = distances_of(scene, casters.front().cast, expected_hits);
@@ -124,7 +124,7 @@ Result<Trees> build_trees(const OctreeScene& scene) {
     return Trees{std::move(*ours), std::move(*fast), std::move(*kd)};
 }
 
-// What rays meet, in packets and each alone: of every fourth tile.
+// The nodes and triangles that rays of every fourth tile meet, in packets and each alone.
 struct Work {
     PacketWork packets;
     PacketWork alone;

@@ -11,7 +11,7 @@
 namespace swath::bench {
 namespace {
 
-// 1, 2, 4 and so on, and as many as there are cores.
+// 1, 2, 4 and so on, and the number of cores.
 std::vector<std::size_t> thread_counts() {
     const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::size_t> counts;
@@ -20,7 +20,7 @@ std::vector<std::size_t> thread_counts() {
     return counts;
 }
 
-// What is measured, by the number of threads.
+// A measurement that is repeated by number of threads.
 struct Job {
     std::string name;
     std::size_t colour;
@@ -35,7 +35,7 @@ const Job kJobs[] = {{"build, ours default", 0, sim::Style::kLine},
 
 std::string entrant(const Job& job, std::size_t threads) { return fmt::format("{}, {}", job.name, threads); }
 
-// Everything that so many threads need.
+// Everything to run the jobs with `count` threads.
 struct Entrants {
     Entrants(const OctreeScene& scene, std::size_t count, const Clock& clock)
         : threads(count),
@@ -46,7 +46,7 @@ struct Entrants {
           medium(scene, device, EmbreeQuality::kMedium),
           low(scene, device, EmbreeQuality::kLow) {}
 
-    // With only so many threads of TBB's.
+    // Limits TBB to the same number of threads.
     template <class Build>
     void add_build(Race& race, const Job& job, Build& build) {
         race.add_work(
@@ -56,7 +56,7 @@ struct Entrants {
                 build.build();
             });
     }
-    // Bands of a view are taken by whoever is free.
+    // A free thread takes the next band of the view.
     template <class Cast>
     void add_rays(Race& race, const Job& job, const OctreeScene& scene, Cast cast) {
         race.add_work(entrant(job, threads), {}, [this, &scene, cast] {
@@ -91,7 +91,7 @@ Result<Race> race_scene(OctreeBench& bench, const OctreeScene& scene) {
     Race race("scaling", scene.name);
     for (const std::size_t count : thread_counts())
         entrants.push_back(std::make_unique<Entrants>(scene, count, clock));
-    // Those that are compared follow each other.
+    // Compared runners follow each other.
     for (const auto& each : entrants) each->add_build(race, kJobs[0], each->ours);
     for (const auto& each : entrants) each->add_build(race, kJobs[1], each->fast);
     for (const auto& each : entrants) each->add_build(race, kJobs[2], each->medium);

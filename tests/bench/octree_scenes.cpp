@@ -12,7 +12,7 @@
 namespace swath::bench {
 namespace {
 
-// Of a built-in model: they have a million by default, which the serial builder takes long for.
+// Built-in models have a million by default, which takes the serial builder long.
 constexpr int kBuiltinTriangles = 200'000;
 
 RayView look(const glm::vec3& eye, const glm::vec3& target, float fov_y_degrees, float size, bool smoke) {
@@ -34,7 +34,7 @@ RayView look(const glm::vec3& eye, const glm::vec3& target, float fov_y_degrees,
     return view;
 }
 
-// Around it and near to it; and of a room, three in it and one from outside.
+// Views from around the box and near to it; for a room, three from inside and one from outside.
 std::vector<RayView> views_of(const Box& box, bool room, bool smoke) {
     const glm::vec3 centre = box.centre();
     const glm::vec3 half = 0.5f * box.size();
@@ -66,7 +66,7 @@ Result<OctreeScene> load(const std::string& name, const std::string& model, bool
     return scene;
 }
 
-// Where a file of a real model is.
+// Finds a file of a real model.
 std::optional<std::string> find_model(const std::string& file) {
     if (const auto shared = test::shared_model(file)) return shared->string();
     const std::filesystem::path fetched = std::filesystem::path(SWATH_SOURCE_DIR) / "models" / file;

@@ -17,9 +17,9 @@ struct RayView {
     int height = 0;
     glm::vec3 eye{0};
     glm::vec3 first{0};  // direction of the upper left pixel's centre; its component forward is 1
-    glm::vec3 right{0};  // a pixel on
-    glm::vec3 down{0};   // a row on
-    // What is nearer or farther, along the view, is not hit.
+    glm::vec3 right{0};  // one pixel to the right
+    glm::vec3 down{0};   // one row down
+    // Nothing is hit nearer or farther than these, along the view.
     float near = 0;
     float far = 0;
 
@@ -28,7 +28,7 @@ struct RayView {
 inline constexpr int kTile = 4;
 static_assert(kTile * kTile == kPacketRays);
 
-// Makes the rays of a tile, for everybody alike.
+// Makes the rays of a tile; all casters use it.
 class TileRays {
   public:
     explicit TileRays(const RayView& view) : view_(view) {
@@ -37,7 +37,7 @@ class TileRays {
                 offset_[axis][lane] = static_cast<float>(lane % kTile) * view.right[axis] +
                                       static_cast<float>(lane / kTile) * view.down[axis];
     }
-    // Of the tile whose upper left pixel this is.
+    // `x`, `y` is the tile's upper left pixel.
     void directions(int x, int y, float (&x_of)[kPacketRays], float (&y_of)[kPacketRays],
                     float (&z_of)[kPacketRays]) const {
         const glm::vec3 corner =
@@ -54,20 +54,20 @@ class TileRays {
     float offset_[3][kPacketRays];
 };
 
-// A model, its triangles in the order in which build_objects leaves them for everybody, and views of it.
+// A model and views of it. Its triangles are in the order of build_objects, for all casters.
 struct OctreeScene {
     std::string name;
-    bool has_bars = false;  // figures are made of it
+    bool has_bars = false;  // it gives figures
     ObjectSet set;
-    std::vector<float> corners;  // as kernels read them
+    std::vector<float> corners;  // in the form that kernels read
     std::vector<RayView> views;
 
     SahTriangles triangles() const;
     std::size_t rays() const;  // of all views
 };
 
-// The Bunny, the Conference and the Dragon, as far as they are there (a note says which is not), and all
-// built-in models, of 200,000 triangles. Errors: a model cannot be read.
+// The Bunny, the Conference and the Dragon if they are there (a note names missing ones), and all built-in
+// models, of 200,000 triangles. Errors: a model cannot be read.
 Result<std::vector<OctreeScene>> octree_scenes(Figures& figures, const Effort& effort);
 
 }  // namespace swath::bench

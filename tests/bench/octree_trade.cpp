@@ -38,7 +38,7 @@ std::vector<Variant> variants(bool smoke) {
         [](SahSettings& settings, double value) { settings.min_bins = static_cast<std::uint32_t>(value); });
     add("bin_ratio", {1, 2, 4, 6, 8, 16, 32},
         [](SahSettings& settings, double value) { settings.bin_ratio = static_cast<std::uint32_t>(value); });
-    // 1 is never.
+    // 1 means never.
     add(kThreshold, {1, 16, 32, 64, 128, 256, 512, 1024, 2048}, [](SahSettings& settings, double value) {
         settings.kd_triangles = static_cast<std::uint32_t>(value);
     });
@@ -52,10 +52,10 @@ std::vector<Variant> variants(bool smoke) {
 constexpr const char* kDefault = "the default";
 constexpr const char* kFast = "the fast setting";
 
-// What a variant comes to.
+// The results of a variant.
 struct Traded {
     double build_ms;
-    double more_cost;  // than the kd-tree's, in per cent
+    double more_cost;  // above the kd-tree's, in per cent
     double mrays;
     double duplication;
 };
@@ -68,7 +68,7 @@ Result<std::vector<Traded>> trade(OctreeBench& bench, const OctreeScene& scene,
     };
     const auto kd_tree = build_sah_kd_tree(scene.triangles(), kDefaultSah);
     if (!kd_tree) return tl::unexpected(kd_tree.error());
-    // One builder for all, in turn, so that none needs memory that another has already.
+    // One builder builds all in turn, so that none pays for memory that another has already.
     SahBuilder builder(kBuildThreads);
     std::vector<SahTree> trees;
     for (const Variant& variant : all) {
@@ -99,7 +99,7 @@ Result<std::vector<Traded>> trade(OctreeBench& bench, const OctreeScene& scene,
     return traded;
 }
 
-// A curve a setting, and the two settings that have names as marks alone.
+// Draws a curve for each setting, and marks for the two settings that have names.
 Status draw_trade(OctreeBench& bench, const OctreeScene& scene, const std::vector<Variant>& all,
                   const std::vector<Traded>& traded) {
     sim::Plot cost;

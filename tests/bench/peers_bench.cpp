@@ -28,14 +28,14 @@
 namespace swath::bench {
 namespace {
 
-// What others took for the same work on a machine like this one (2 cores): IceT 2.2, direct strategy, MPI
-// over TCP, a k-d split of the Dragon, all ranks on one core; OpenSceneGraph 3.6.5 with two llvmpipe threads.
+// Times of peers for the same work on a machine like this one (2 cores): IceT 2.2, direct strategy, MPI over
+// TCP, a k-d split of the Dragon, all ranks on one core; OpenSceneGraph 3.6.5 with two llvmpipe threads.
 // 1280x960, about 42 % of the pixels covered.
 struct Peer {
     std::size_t servers;
-    double icet_cpu_ns;  // a screen pixel
-    double icet_kib;     // a frame
-    double share;        // of those bytes that we allow ourselves
+    double icet_cpu_ns;  // per screen pixel
+    double icet_kib;     // per frame
+    double share;        // the part of those bytes that we allow ourselves
 };
 constexpr std::array<Peer, 3> kPeers{Peer{2, 2.6, 2934, 0.7}, Peer{4, 3.8, 4018, 0.5},
                                      Peer{8, 6.2, 5809, 0.5}};
@@ -60,8 +60,7 @@ std::vector<Camera> peers_orbit(const Box& bounds) {
     return cameras;
 }
 
-// Draws a view once and then hands out the same pixels: what is left of a server is swap, composite and
-// gather.
+// Draws a view once and then returns the same pixels: this leaves a server only swap, composite and gather.
 class CachedRenderer final : public Renderer {
   public:
     explicit CachedRenderer(std::unique_ptr<Renderer> renderer) : renderer_(std::move(renderer)) {}
@@ -92,7 +91,7 @@ class CachedRenderer final : public Renderer {
     std::map<std::string, PixelFrame> frames_;
 };
 
-// A child process that runs a server or a display of ours; ends with this object.
+// A child process that runs one of our servers or displays, and ends with this object.
 class Child {
   public:
     template <class Make>
@@ -141,13 +140,12 @@ double process_cpu_s() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// Swap, composite and gather of `peer.servers` server processes and a display on one core over TCP: all their
-// CPU time and the client's, less what the timeline says went into partitioning, culling, drawing and reading
-// back.
+// Measures swap, composite and gather of `peer.servers` server processes and a display on one core over TCP:
+// all their CPU time and the client's, less the timeline's partitioning, culling, drawing and reading back.
 Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer,
                         const std::shared_ptr<const ObjectSet>& scene, const Mesh& mesh) {
     const std::size_t passes =
-        2 + 2 * static_cast<std::size_t>(effort.repetitions);  // the first fills the caches
+        2 + 2 * static_cast<std::size_t>(effort.repetitions);  // the first one fills the caches
     std::vector<std::unique_ptr<Child>> servers;
     for (std::size_t i = 0; i < peer.servers; ++i)
         servers.push_back(std::make_unique<Child>([](boost::asio::io_context& io, const Clock& clock) {
@@ -183,7 +181,7 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
         for (const auto& server : servers) sum += server->cpu_s();
         return sum;
     };
-    std::vector<double> cpu_at;  // when a pass was complete
+    std::vector<double> cpu_at;  // at the end of each pass
     const SteadyClock clock;
     std::size_t done = 0;
     StopSignals signals(kExitFailed, true);
@@ -219,7 +217,7 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
     return {};
 }
 
-// One core for this process and its children, as IceT's figures were taken.
+// Limits this process and its children to one core, as for IceT's figures.
 class OneCore {
   public:
     OneCore() {
@@ -241,7 +239,7 @@ class OneCore {
     cpu_set_t before_{};
 };
 
-// Whole frames of real processes.
+// Measures whole frames of real processes.
 Status bench_frames(Figures& figures, const Effort& effort, const Box& bounds) {
     const auto folder = std::filesystem::temp_directory_path() / fmt::format("swath-bench-{}", ::getpid());
     std::filesystem::create_directories(folder);

@@ -10,45 +10,44 @@
 
 namespace swath::bench {
 
-// Ways to the same set, or to do the same work, measured against each other: in every repetition each has a
-// turn of a few frames back to back, and its best one counts, so that what disturbs the machine disturbs all
-// alike. Ratios are taken within a repetition.
+// Races runners that make the same set or do the same work. In every repetition each has a turn of a few
+// frames back to back, and its best one counts, so that a disturbance of the machine meets all alike. Ratios
+// are taken within a repetition.
 class Race {
   public:
     using Ids = std::vector<std::uint32_t>;
 
-    // `title` says in errors what is raced, `scene` heads its column in a table.
+    // `title` names the race in errors, `scene` heads its column in a table.
     Race(std::string title, std::string scene) : title_(std::move(title)), scene_(std::move(scene)) {}
-    // `frame` is what is measured. `ids` says what may be seen by the last frame; a frame must have made
-    // these ids, each of them, wherever they lie. The first runner is what the others are checked against,
-    // and the table's ratios refer to.
+    // `frame` is measured. `ids` returns what the last frame found visible; the frame must have written each
+    // of these ids somewhere. check() and the table's ratios compare with the first runner.
     void add(std::string name, std::function<void()> frame, std::function<Ids()> ids);
-    // Of a frame that returns all its ids.
+    // For a frame that returns all its ids.
     void add(std::string name, std::function<std::span<const std::uint32_t>()> frame);
-    // Of work that makes no set, and that check() leaves out. `prepare` comes before every frame and is not
+    // For work that makes no set; check() leaves it out. `prepare` runs before every frame and is not
     // measured.
     void add_work(std::string name, std::function<void()> prepare, std::function<void()> frame);
 
     enum class Order { kAny, kSame };
-    // One frame of each, not measured: an error when one does not leave what the first left, naming both and
-    // how they differ.
+    // Runs one frame of each, unmeasured. An error if a runner's set differs from the first one's; it names
+    // both and the difference.
     Status check(Order order = Order::kAny);
-    // What of a turn's frames counts.
+    // The frames of a turn that count.
     enum class Frames { kBest, kMean };
     void run(int repetitions, int frames = 3, Frames count = Frames::kBest);
 
     std::size_t visible() const { return visible_; }
-    // Of runners by name, which must have been added.
+    // `name` must have been added.
     double us(std::string_view name) const;  // median
-    // How many times as long `slow` takes as `fast`, by repetition.
+    // The time of `slow` over that of `fast`, by repetition.
     std::vector<double> ratios(std::string_view slow, std::string_view fast) const;
 
   private:
     struct Runner {
         std::string name;
         std::function<void()> frame;
-        std::function<Ids()> ids;       // none of work without a set
-        std::function<void()> prepare;  // may be none
+        std::function<Ids()> ids;       // empty for work without a set
+        std::function<void()> prepare;  // may be empty
         std::vector<double> us;
     };
     const Runner& runner(std::string_view name) const;
@@ -61,11 +60,11 @@ class Race {
     std::size_t visible_ = 0;
 };
 
-// Of races between the same runners, a column each: microseconds and, behind them, how many times as fast as
-// the first runner.
+// A table of races between the same runners, a column each: microseconds, and how many times as fast as the
+// first runner.
 std::string table(const std::string& title, std::span<const Race> races);
 
-// What one call takes, in microseconds.
+// The time of one call, in microseconds.
 double time_us(const std::function<void()>& work);
 
 }  // namespace swath::bench

@@ -65,7 +65,7 @@ Status bench_table1(Figures& figures, const Effort& effort, bool smoke) {
     return {};
 }
 
-// Every event asks for its successor, up to a millisecond later; 1,000 are waiting.
+// Every event adds its successor, up to a millisecond later; 1,000 are waiting.
 double events_per_s(std::uint64_t count) {
     sim::EventQueue events;
     std::minstd_rand random(1);
@@ -97,8 +97,8 @@ std::vector<Object> shell(std::size_t count) {
     return objects;
 }
 
-// The slowest of all algorithms, the transform of the boxes apart; sort-last's groups, which last, are made
-// before.
+// The time of the slowest algorithm, without the projection of boxes. Sort-last's groups, which last, are
+// made before.
 void bench_partition(Figures& figures, std::size_t count, std::size_t servers, const std::string& bar,
                      int repetitions) {
     const std::vector<Object> objects = shell(count);

@@ -15,7 +15,7 @@
 namespace swath::bench {
 namespace {
 
-// Seconds that `work` takes, repeated until they are at least a tenth.
+// The seconds of one call of `work`, which is repeated until they add up to a tenth.
 template <class Work>
 double seconds(const Work& work) {
     for (int times = 1;; times *= 2) {
@@ -26,7 +26,7 @@ double seconds(const Work& work) {
     }
 }
 
-// What a planes' composite moves: 12 bytes in from the peer, 12 in and out of ours.
+// The data of a composite of planes: it reads 12 bytes from the peer, and reads and writes 12 of ours.
 struct Planes {
     explicit Planes(std::size_t n) : colour(n), depth(n), id(n) {}
     std::vector<std::uint32_t> colour;

@@ -28,20 +28,20 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr std::chrono::seconds kPatience(120);
 constexpr const char* kSize = "1280x960";
-constexpr std::chrono::microseconds kAnimationFrame(16'667);  // a page wishes at most once in this time
+constexpr std::chrono::microseconds kAnimationFrame(16'667);  // a page sends at most one wish in this time
 constexpr double kInputLagBeyond = 30;                        // ms
 
-// What a display says to a page: a note, or a picture with its header.
+// A message to a page: a note, or a picture with its header.
 struct Heard {
     Clock::time_point at;
     json value;
     bool picture = false;
 };
 
-// A page without a screen: takes pictures as they come and says so.
+// A page without a screen: it answers pictures as they come.
 class Page {
   public:
-    // `line` is the program's: "viewer http://127.0.0.1:8080/".
+    // `line` is printed by the program: "viewer http://127.0.0.1:8080/".
     static Result<std::unique_ptr<Page>> open(const std::string& line) {
         static constexpr std::string_view kScheme = "http://";
         const auto begin = line.find(kScheme) + kScheme.size();
@@ -52,7 +52,7 @@ class Page {
         return std::unique_ptr<Page>(new Page(std::move(*client)));
     }
 
-    // The next thing said; nothing when nothing came in time.
+    // The next message; nothing if none came in time.
     std::optional<Heard> hear(std::chrono::milliseconds limit) {
         const auto message = client_->next(limit);
         if (!message) return std::nullopt;
@@ -104,7 +104,7 @@ class Audience {
     std::thread thread_;
 };
 
-// The programs beside this one, with a cache of their own.
+// Starts the programs beside this one, with a cache of their own.
 class Programs {
   public:
     std::unique_ptr<test::Process> start(const std::string& program,
@@ -123,7 +123,7 @@ std::string address_of(test::Process& process) {
     return process.wait_for_line("listening 127.0.0.1:", kPatience).substr(kAnnouncement.size());
 }
 
-// CPU time that a running program has used, all threads.
+// CPU time of a running program, all threads.
 double cpu_s(const test::Process& process) {
     clockid_t clock{};
     timespec time{};
@@ -131,7 +131,7 @@ double cpu_s(const test::Process& process) {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// ... and all that have been waited for.
+// CPU time of all children that have been waited for.
 double ended_cpu_s() {
     rusage usage{};
     ::getrusage(RUSAGE_CHILDREN, &usage);
@@ -141,8 +141,8 @@ double ended_cpu_s() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// A run along a path three ways, in turn: with a display without a page, with a page that nobody looks at,
-// and with a viewer who takes what it gets.
+// Runs along a path in three ways, in turn: with a display without a page, with a page that nobody looks at,
+// and with a viewer who takes all pictures.
 Status bench_cost(Figures& figures, const Effort& effort, const Programs& programs) {
     const std::vector<std::string> listen{"--listen", "127.0.0.1:0"};
     std::vector<std::unique_ptr<test::Process>> servers;
@@ -215,7 +215,7 @@ Status bench_cost(Figures& figures, const Effort& effort, const Programs& progra
     return {};
 }
 
-// From a wish's sending to the picture made from it, and the pipeline's own share of that.
+// Measures the time from a wish to the picture made from it, and the pipeline's own part of that.
 class Lag {
   public:
     void sent(std::uint64_t wish, Clock::time_point at) { sent_[wish] = at; }
@@ -225,7 +225,7 @@ class Lag {
         if (heard.picture && value.at("plan").is_object()) {
             const auto frame = value.at("frame").get<std::uint64_t>();
             const auto found = sent_.find(value.at("plan").at("wish").get<std::uint64_t>());
-            // A wish's first picture only; its lossless one comes after a rest.
+            // Only a wish's first picture counts; its lossless one comes after a rest.
             if (found == sent_.end()) return;
             ++pictures_;
             picture_ms_[frame] = Milliseconds(heard.at - found->second).count();
@@ -238,7 +238,7 @@ class Lag {
 
     std::size_t pictures() const { return pictures_; }
     const std::vector<double>& frame_ms() const { return frame_ms_; }
-    // Of every frame of which both are known: what came on top of the pipeline.
+    // The time besides the pipeline's, of every frame of which both are known.
     std::vector<double> beyond_ms() const {
         std::vector<double> beyond;
         for (const auto& [frame, ms] : picture_ms_)
@@ -248,7 +248,7 @@ class Lag {
     }
 
   private:
-    // From the client's beginning with the frame to the display's complete picture.
+    // From the beginning of the frame at the client to the complete picture at the display.
     static double pipeline_ms(const json& machines) {
         double begin = 0;
         double end = 0;
@@ -268,7 +268,7 @@ class Lag {
     std::size_t pictures_ = 0;
 };
 
-// A viewer who turns the model all the time, with a new wish every animation frame.
+// Steers as a viewer who turns the model all the time, with a new wish every animation frame.
 Status bench_steering(Figures& figures, const Effort& effort, const Programs& programs) {
     const auto client = programs.start("swath-client", {"builtin:knot:20000", "--local", "2", "--view", "0"});
     auto page = Page::open(client->wait_for_line("viewer http://", kPatience));
@@ -330,7 +330,7 @@ Status bench_steering(Figures& figures, const Effort& effort, const Programs& pr
     return {};
 }
 
-// What the longest machine of a frame note was busy for, as a prediction counts it.
+// The busy time of the busiest machine of a frame note, as in a prediction.
 double busiest_ms(const json& note) {
     double most = 0;
     for (const json& machine : note.at("machines")) {
@@ -342,8 +342,8 @@ double busiest_ms(const json& note) {
     return most;
 }
 
-// Predictions of all algorithms at the rates that the hybrid has shown, over what their frames took in the
-// same round.
+// Compares predictions of all algorithms, at the rates that the hybrid has shown, with the time of their
+// frames in the same round.
 Status bench_prediction(Figures& figures, const Effort& effort, const Programs& programs) {
     const std::string model = effort.smoke ? "builtin:knot:20000" : "builtin:knot:200000";
     const auto client = programs.start("swath-client", {model, "--local", "2", "--view", "0"});
@@ -351,7 +351,7 @@ Status bench_prediction(Figures& figures, const Effort& effort, const Programs& 
     if (!page) return tl::unexpected(page.error());
     const std::vector<std::string> algorithms{"hybrid", "mahd", "kd-split", "sort-last"};
     constexpr int kFrames = 24;
-    constexpr int kPassedOver = 4;  // frames after a change, of which some are still another algorithm's
+    constexpr int kPassedOver = 4;  // frames after a change, some of which are another algorithm's
     std::map<std::string, std::vector<double>> errors;
     std::uint64_t id = 0;
     // The first round teaches the rates.

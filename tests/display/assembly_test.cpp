@@ -110,12 +110,12 @@ TEST(Assemblies, CompleteEveryFrameOnceWithEveryTileOnceHoweverEventsInterleave)
         std::map<FrameNumber, std::multiset<ServerId>> merged;
         std::set<FrameNumber> over;
         FrameNumber told = 0;                       // frames whose task the display has
-        std::vector<FrameNumber> sent(servers, 0);  // frames that each server is through with
+        std::vector<FrameNumber> sent(servers, 0);  // frames that each server is done with
         while (over.size() < kFrames) {
             Result<Actions> actions;
             const std::size_t s = random() % (servers + 1);
             FrameNumber& next = s == servers ? told : sent[s];
-            // Of frames that are not over there are two at most.
+            // At most two frames are not over.
             if (next >= kFrames || next >= over.size() + 2) continue;
             if (s == servers)
                 actions = assembly.on_task(next, wanted[next]);

@@ -10,25 +10,25 @@ namespace {
 
 using testing::MatchesRegex;
 
-// A display in this process, a client and the servers that it hears from. Pictures are 4 x 2.
+// A display in this process, with a client and servers that talk to it. Pictures are 4 x 2.
 class DisplayTest : public testing::Test {
   protected:
     DisplayTest() { display_ = std::move(*make_display(loop_.io, {}, loop_.clock)); }
 
-    // From now on people can look.
+    // Starts a display that viewers can look at.
     void view() {
         viewers_ = std::move(*ViewerHost::make({}, loop_.clock));
         DisplayOptions options;
         options.viewers = viewers_.get();
         display_ = std::move(*make_display(loop_.io, options, loop_.clock));
     }
-    // One who looks and has heard so.
+    // Connects a viewer, who is told so.
     std::unique_ptr<WebClient> viewer() {
         auto made = std::move(*WebClient::connect(viewers_->address()));
         EXPECT_TRUE(made->next().has_value());
         return made;
     }
-    // The next message that begins like this; text or not. The display goes on meanwhile.
+    // Runs the display until a message that begins like this, text or not.
     std::string next(WebClient& viewer, std::string_view begin, bool text = true) {
         std::string found;
         loop_.run_until([&] {
@@ -55,12 +55,12 @@ class DisplayTest : public testing::Test {
         servers_.clear();
         for (std::uint32_t i = 0; i < servers; ++i) {
             servers_.push_back(come(hello_of(Role::kServer, kSession, i)));
-            // The answer to its Ping: the display has taken it in.
+            // The answer to its Ping shows that the display has accepted it.
             loop_.run_until([&] { return servers_.back()->connection->has_clock_offset(); });
         }
         return made;
     }
-    // One whose run takes wishes; somebody looks.
+    // A client of a live run, with a viewer.
     std::unique_ptr<Peer> live_client() {
         auto made = client();
         made->send(DisplaySetup{kSession, PictureFormat::kNone, 2, true});
@@ -71,7 +71,7 @@ class DisplayTest : public testing::Test {
     static AssembleFrame task(FrameNumber frame, const std::vector<Exchange>& tiles) {
         return {frame, 4, 2, {9, 9, 9}, tiles};
     }
-    // Every pixel of the region in one colour.
+    // Sends a tile with every pixel of the region in one colour.
     void send_tile(std::size_t server, FrameNumber frame, const Region& region, std::uint32_t colour) {
         PixelFrame pixels;
         pixels.reshape({0, 0, 4, 2});
@@ -187,12 +187,12 @@ TEST_F(DisplayTest, TurnsAwayServersThatItDoesNotExpect) {
     EXPECT_EQ(turned_away(kSession, 0), "this display is in no session");
     const auto early = client();
     loop_.run_until([&] { return early->connection->has_clock_offset(); });
-    EXPECT_EQ(turned_away(0, 0), "this display is in another session");  // that has no number yet
+    EXPECT_EQ(turned_away(0, 0), "this display is in another session");  // it has no number yet
     early->connection->finish();
     loop_.run_until([&] { return early->connection.use_count() == 1; });
     const auto one = ready_client(2);
     EXPECT_EQ(turned_away(41, 0), "this display is in another session");
-    EXPECT_EQ(turned_away(kSession, 0), "server 0 is not expected here");  // there is one already
+    EXPECT_EQ(turned_away(kSession, 0), "server 0 is not expected here");  // it is there already
     EXPECT_EQ(client()->ending(), "this display is busy with another client");
     EXPECT_FALSE(one->closed.has_value());
 }
@@ -272,7 +272,7 @@ TEST_F(DisplayTest, ServesTheNextClientAfterOneThatVanished) {
     two->expect<DisplayReport>();
 }
 
-// With viewers.
+// Viewers.
 
 TEST_F(DisplayTest, SaysWhereItsPageIsAndHowManyLook) {
     const auto plain = client();
@@ -328,7 +328,7 @@ TEST_F(DisplayTest, PassesTheNewestWishWhenTheClientHasTakenTheLastOne) {
     const auto one = live_client();
     for (int id = 1; id <= 5; ++id) looks->send(fmt::format(R"({{"type":"wish","id":{}}})", id));
     one->expect<Wish>();
-    // What comes after a later wish is not read before it.
+    // Messages after a wish are not read before it.
     looks->send(R"({"type":"wish","id":6})");
     const auto second = viewer();
     EXPECT_EQ(one->expect<Audience>(), Audience{2});
@@ -374,7 +374,7 @@ TEST_F(DisplayTest, ViewersOutliveClientsThatVanishAndSeeTheNext) {
         one->expect<Audience>();
         one->expect<DisplayReport>();
         EXPECT_EQ(next(*looks, R"({"type":"session")"), note);
-        looks->send(R"({"type": "wish"})");  // may find no one
+        looks->send(R"({"type": "wish"})");  // there may be no session to take it
         one->connection->close();
         loop_.run_until([&] { return viewers_->numbers().waiting_bytes == 0 && servers_[0]->closed; });
         EXPECT_EQ(next(*looks, R"({"type":"audience","you":1,"lead":1,"viewers":1,"session":false})").empty(),

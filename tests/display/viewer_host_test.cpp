@@ -1,4 +1,4 @@
-// Viewers over real connections, and what a session sees of them.
+// Viewers over real connections, and their session's side.
 #include "display/view/viewer_host.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ Buffer buffer_of(std::string_view text) {
     return bytes;
 }
 
-// What nothing can pack.
+// A picture that cannot be compressed.
 std::shared_ptr<const Picture> noise(int width, int height, unsigned seed) {
     auto picture = std::make_shared<Picture>(Picture{width, height, {}});
     picture->rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -50,7 +50,7 @@ class ViewerHostTest : public testing::Test {
         ASSERT_TRUE(made.has_value()) << made.error().message;
         host_ = std::move(*made);
     }
-    // A session whose calls end up in audiences_ and wishes_.
+    // Begins a session whose calls are kept in audiences_ and wishes_.
     std::uint32_t begin(bool live = true) {
         ViewerHost::Callbacks callbacks;
         callbacks.on_audience = [this](std::uint32_t viewers) { audiences_.push_back(viewers); };
@@ -96,8 +96,8 @@ class ViewerHostTest : public testing::Test {
                          {"format", picture.head["format"]}}
                         .dump());
     }
-    // Until all that `leader` has said so far is heard. It is sent away for its last words, which the other
-    // sees.
+    // Waits until everything that `leader` has said is read: its last words get it disconnected, which the
+    // other viewer sees.
     static void hear_out(WebClient& leader, WebClient& other) {
         leader.send("no JSON");
         while (next_text(other, "audience").value("lead", 0) != 2)
@@ -176,7 +176,7 @@ TEST_F(ViewerHostTest, PassesTheLeadersWishesOnAsTheyAre) {
     const auto two = viewer();
     next_text(*two, "audience");
     const std::string wish = R"({ "type" : "wish", "id" : 7, "camera" : [1, 2.50] })";
-    two->send(R"({"type": "wish", "id": 1})");  // does not lead
+    two->send(R"({"type": "wish", "id": 1})");  // it does not lead
     two->send(R"({"type": "lead"})");
     EXPECT_EQ(next_text(*two, "audience")["lead"], 2);
     two->send(wish);
@@ -266,7 +266,7 @@ TEST_F(ViewerHostTest, AViewerThatNeverReadsCostsBoundedMemoryAndSlowsNobody) {
         host_->announce(frame);
         host_->picture(frame, 0, picture);
         ASSERT_TRUE(host_->note(NoteTopic::kFrame, frame, buffer_of(note)).has_value());
-        // On a slow machine the one before comes without loss first.
+        // On a slow machine the picture before comes as PNG first.
         GotPicture got;
         do {
             got = next_picture(*good);
@@ -303,7 +303,7 @@ TEST_F(ViewerHostTest, AViewerThatHasFallenSilentIsDisconnected) {
     options.limits.silence = std::chrono::milliseconds(200);
     start(options);
     begin();
-    const auto silent = viewer();  // it reads nothing: not even pings are answered
+    const auto silent = viewer();  // it reads nothing, so it does not answer pings
     loop_.run_until([&] { return audiences_ == std::vector<std::uint32_t>{1, 0}; });
     EXPECT_THAT(audiences_, ElementsAre(1, 0));
 }

@@ -34,8 +34,8 @@ std::string picture_name(const PictureKey& key) {
                        key.stream == 0 ? "" : "'");
 }
 
-// Viewers, a clock that the test moves, and what is to be done as lines: "encode jpeg 3" ("3'" is frame 3 of
-// stream 1), "2 < jpeg 3" (is written to viewer 2), "2 < audience: 1 leads 2".
+// Viewers, a clock that the test moves, and actions as lines: "encode jpeg 3" ("3'" is frame 3 of stream 1),
+// "2 < jpeg 3" (is written to viewer 2), "2 < audience: 1 leads 2".
 class ViewersTest : public testing::Test {
   protected:
     Done join(ViewerId viewer) { return lines(viewers_.on_join(viewer, now_)); }
@@ -61,13 +61,12 @@ class ViewersTest : public testing::Test {
         now_ += time;
         return lines(viewers_.on_tick(now_));
     }
-    // A viewer who has heard who looks, and to whom nothing is being written.
+    // Adds a viewer who has been told the audience, and to whom nothing is being written.
     void settled_viewer(ViewerId viewer) {
         join(viewer);
         read_all();
     }
-    // Everything that is being written is written, and what is handed out because of it too. What viewers
-    // got.
+    // Finishes everything that is being written, and all that follows. Returns what viewers got.
     Done read_all() {
         Done all;
         for (bool more = true; more;) {
@@ -106,7 +105,7 @@ class ViewersTest : public testing::Test {
     }
 };
 
-// Who leads.
+// Leading.
 
 TEST_F(ViewersTest, TheFirstLeadsAndEverybodyHearsWhoLooks) {
     session();
@@ -126,7 +125,7 @@ TEST_F(ViewersTest, WhoAsksToLeadDoes) {
     EXPECT_TRUE(viewers_.steers(2));
     EXPECT_FALSE(viewers_.steers(1));
     EXPECT_THAT(lead(2), IsEmpty());
-    EXPECT_THAT(lead(7), IsEmpty());  // nobody
+    EXPECT_THAT(lead(7), IsEmpty());  // there is no such viewer
     EXPECT_TRUE(viewers_.steers(2));
 }
 
@@ -203,7 +202,7 @@ TEST_F(ViewersTest, ANewcomerGetsTheNewestAtOnceAndWithoutLossWhenNothingMoves) 
     EXPECT_THAT(encoded(4, kPng), ElementsAre("1 < png 4", "2 < png 4"));
     read_all();
     join(3);
-    EXPECT_THAT(written(3), ElementsAre("3 < png 4"));  // from what is there
+    EXPECT_THAT(written(3), ElementsAre("3 < png 4"));  // of the picture that is there
 }
 
 TEST_F(ViewersTest, AtMostTwoPicturesAreOnTheirWayAndThenTheNewestFollows) {
@@ -219,7 +218,7 @@ TEST_F(ViewersTest, AtMostTwoPicturesAreOnTheirWayAndThenTheNewestFollows) {
     EXPECT_THAT(encoded(4), ElementsAre("1 < jpeg 4"));
     EXPECT_THAT(written(1), IsEmpty());
     EXPECT_THAT(picture(5), IsEmpty());
-    // The newer of two is shown: through with both.
+    // The newer of two is shown, which is an answer to both.
     EXPECT_THAT(shown(1, 4), ElementsAre("encode jpeg 5"));
     encoded(5);
     written(1);
@@ -239,7 +238,7 @@ TEST_F(ViewersTest, OnlyWhatWasSentCanBeShown) {
     EXPECT_THAT(shown(1, 0, kPng), IsEmpty());
     EXPECT_THAT(shown(1, 0, kJpeg, 1), IsEmpty());
     EXPECT_THAT(shown(1, 0), Not(IsEmpty()));
-    EXPECT_THAT(shown(1, 0), IsEmpty());  // twice
+    EXPECT_THAT(shown(1, 0), IsEmpty());  // a second time
 }
 
 TEST_F(ViewersTest, WhatIsNextIsChosenWhenTheLastIsWritten) {
@@ -254,7 +253,7 @@ TEST_F(ViewersTest, WhatIsNextIsChosenWhenTheLastIsWritten) {
 TEST_F(ViewersTest, ASlowViewerMissesWhatItHasNoRoomForAndSlowsNobody) {
     session();
     settled_viewer(1);
-    settled_viewer(2);  // the slow one: nothing gets written to it
+    settled_viewer(2);  // a slow one: nothing gets written to it
     picture(0);
     encoded(0);
     written(1);
@@ -290,7 +289,7 @@ TEST_F(ViewersTest, StreamsAreSeparateAndTakeTurns) {
         encoded(frame + 1, kJpeg, 1);
         EXPECT_THAT(read_all(), ElementsAre(fmt::format("1 < jpeg {}'", frame + 1)));
     }
-    EXPECT_THAT(picture(4, 0), IsEmpty());  // two of each on their way
+    EXPECT_THAT(picture(4, 0), IsEmpty());  // two of each are on their way
     EXPECT_THAT(picture(5, 1), IsEmpty());
     EXPECT_THAT(shown(1, 1, kJpeg, 1), ElementsAre("encode jpeg 5'"));
     EXPECT_THAT(shown(1, 0, kJpeg, 0), ElementsAre("encode jpeg 4"));
@@ -319,7 +318,7 @@ TEST_F(ViewersTest, APictureThatCannotBeEncodedIsPassedOver) {
     EXPECT_THAT(picture(1), ElementsAre("encode jpeg 1"));
 }
 
-// Without loss.
+// PNG.
 
 TEST_F(ViewersTest, TheNewestComesWithoutLossWhenItHasHadNoSuccessorForAWhile) {
     session();
@@ -401,7 +400,7 @@ TEST_F(ViewersTest, NewcomersGetTheNewestOfWhatLasts) {
 
 TEST_F(ViewersTest, OfEachTopicTheNewestWaits) {
     session();
-    join(1);  // hears who looks, and takes long
+    join(1);  // takes long to read the audience
     for (const char* i : {"1", "2", "3"})
         for (const auto& [topic, name] : {std::pair{NoteTopic::kTrace, "trace "},
                                           {NoteTopic::kState, "state "},
@@ -485,7 +484,7 @@ TEST_F(ViewersTest, WhatASessionLeftIsForgottenWithIt) {
 
     EXPECT_THAT(session(), ElementsAre("1 < audience: 1 leads 2", "2 < audience: 1 leads 2"));
     read_all();
-    EXPECT_THAT(picture(1), ElementsAre("encode jpeg 1"));  // with no plan
+    EXPECT_THAT(picture(1), ElementsAre("encode jpeg 1"));  // without a plan
 }
 
 TEST_F(ViewersTest, FrameNumbersBeginAnewWithASession) {

@@ -1,4 +1,4 @@
-// What strangers can do to the viewers' web server: what they ask, say and do not say.
+// The web server against strangers: bad requests, bad messages and silence.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class WebServerTest : public testing::Test {
         auto made = ViewerHost::make(options, clock_);
         ASSERT_TRUE(made.has_value()) << made.error().message;
         host_ = std::move(*made);
-        // Tests of what is reached off loopback still come by loopback.
+        // Tests of a server off loopback still connect by loopback.
         address_ = {"127.0.0.1", host_->address().port};
     }
     void start_with_token() {
@@ -62,7 +62,7 @@ class WebServerTest : public testing::Test {
         const auto made = WebClient::connect(address_, options);
         return made ? "not refused" : made.error().message;
     }
-    // Whoever comes now finds everything as ever.
+    // A new visitor finds everything as ever.
     void expect_all_is_well() const {
         EXPECT_EQ(
             get("/", token_.empty() ? "" : fmt::format("Cookie: {}={}\r\n", cookie_name(), token_)).status,
@@ -147,7 +147,7 @@ TEST_F(WebServerTest, HasNothingElse) {
     }
 }
 
-// Requests that are none.
+// Bad requests.
 
 TEST_F(WebServerTest, RefusesWhatIsNotHttp) {
     for (const std::string& request :
@@ -190,7 +190,7 @@ TEST_F(WebServerTest, HangsUpOnHeadsThatDoNotEnd) {
     expect_all_is_well();
 }
 
-// Who may ask.
+// Admission.
 
 TEST_F(WebServerTest, OnLoopbackIsAskedForByItsOwnNamesOnly) {
     const std::uint16_t port = address_.port;
@@ -303,7 +303,7 @@ TEST_F(WebServerTest, EndsAViewerWhoseMessagesAreNone) {
     constexpr int kPolicy = 1008;
     constexpr int kTooBig = 1009;
     constexpr int kNoClose = 1006;
-    // The rest of it is not read, and the reset can overtake the close.
+    // The rest of the message is not read, and the reset can overtake the close.
     EXPECT_THAT(ending_after(std::string(20'000, ' '), true), testing::AnyOf(kTooBig, kNoClose));
     EXPECT_EQ(ending_after(R"({"type": "lead"})", false), 1003);
     EXPECT_EQ(ending_after("\xff\xfe", true), kBadPayload);
@@ -372,7 +372,7 @@ TEST_F(WebServerTest, GarbageOnAWebSocketEndsItOnly) {
     expect_all_is_well();
 }
 
-// Too many.
+// Limits.
 
 TEST_F(WebServerTest, HasSoManyViewersAndTellsOneMore) {
     WebServer::Options options;
@@ -382,7 +382,7 @@ TEST_F(WebServerTest, HasSoManyViewersAndTellsOneMore) {
     const auto two = viewer();
     EXPECT_EQ(refusal({}), "503 too many viewers\n");
     one->close();
-    // Its place is free as soon as the server has seen it go.
+    // Its slot is free as soon as the server has seen it go.
     std::string said;
     for (int i = 0; i < 1000 && said != "not refused"; ++i) said = refusal({});
     EXPECT_EQ(said, "not refused");

@@ -8,7 +8,7 @@
 #include "tests/common/wire/sample_messages.h"
 
 // make_corpus FOLDER: writes the corpora of message_fuzz and pixels_fuzz, one file for each kind of message
-// and for a few bodies. To be run again when the bytes on the wire change.
+// and for a few bodies. Run it again when the bytes on the wire change.
 
 namespace {
 
@@ -29,7 +29,7 @@ void write_messages(const std::filesystem::path& folder) {
     }
 }
 
-// In the region that pixels_fuzz decodes for.
+// Writes bodies for the region that pixels_fuzz decodes.
 void write_pixels(const std::filesystem::path& folder) {
     const Region region{{1, 1, 9, 4}, {10, 0, 13, 6}};
     test::Random random(1);

@@ -5,7 +5,8 @@
 
 #include "common/wire/codec.h"
 
-// A prefix, then a head: refused with one line, or a message that can be sent on and stays the same.
+// A prefix, then a head: either an error of one line, or a message that survives being encoded and decoded
+// again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace swath;
     if (size < kPrefixBytes) return 0;
@@ -15,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!prefix && prefix.error().message.empty()) std::abort();
     if (prefix && (prefix->head_bytes > limits.max_head_bytes || prefix->body_bytes > limits.max_body_bytes))
         std::abort();
-    // Whatever the prefix said: it would keep the fuzzer from the heads.
+    // Ignores the prefix, which would keep the fuzzer from the heads.
     const auto message = decode_head({data + kPrefixBytes, size - kPrefixBytes});
     if (!message) {
         if (message.error().message.empty()) std::abort();

@@ -7,8 +7,8 @@
 
 #include "common/image/pixel_codec.h"
 
-// Sizes of pixels, spans and ids, a byte each, then the body of a swath and of a tile: refused with one line,
-// or merged; and no pixel outside of the region is touched.
+// Sizes of pixels, spans and ids, a byte each, then the body of a swath and of a tile: either an error of one
+// line, or pixels that are composited; no pixel outside of the region may be touched.
 namespace {
 
 constexpr swath::Rect kScreen{0, 0, 16, 8};
@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace swath;
     if (size < 3) return 0;
     const BodySizes sizes{data[0], data[1], data[2]};
-    Buffer body;  // aligned as one that was received
+    Buffer body;  // aligned like a received body
     body.append(data + 3, size - 3);
 
     PixelFrame frame;

@@ -4,7 +4,7 @@
 
 #include "common/scene/ply.h"
 
-// Whatever the bytes are: one printable line of error, or a mesh that can be rendered.
+// Any bytes give one printable line of error, or a mesh that can be rendered.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const swath::Result<swath::Mesh> mesh = swath::read_ply({data, size});
     if (mesh && !swath::validate(*mesh)) std::abort();

@@ -4,7 +4,7 @@
 
 #include "client/live/live_view.h"
 
-// What a page says: refused with one line, or a wish whose frames can be drawn.
+// A message of a page: either an error of one line, or a wish whose frames can be drawn.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace swath;
     LiveView::Settings settings;

@@ -36,7 +36,7 @@ SwapTask task(FrameNumber frame, const std::vector<std::size_t>& to, const std::
     return made;
 }
 
-// One server's events; errors come back as text.
+// Feeds events to one server; errors come back as text.
 class FrameSwapTest : public testing::Test {
   protected:
     Actions given(const SwapTask& t) { return good(swap_.on_task(t)); }
@@ -117,8 +117,8 @@ TEST_F(FrameSwapTest, RefusesTasksOutOfOrderAndTooMany) {
     EXPECT_EQ(refused(swap_.on_task(task(6, {}, {}))), "frame 6: more than 2 frames in flight");
 }
 
-// A cluster of FrameSwaps whose messages arrive in any order that TCP allows: in order between two machines,
-// in no order otherwise.
+// A cluster of FrameSwaps. Messages arrive in any order that TCP allows: in order between two machines, in no
+// order otherwise.
 class RandomCluster {
   public:
     RandomCluster(std::size_t servers, std::mt19937& random)
@@ -129,8 +129,8 @@ class RandomCluster {
         FrameNumber issued = 0;
         while (over_ < frames) {
             if (issued < frames && issued - over_ < kInFlight && random_() % 3 == 0) issue(issued++);
-            // A queue from each machine to each: the client is machine n, a server's own drawing goes to
-            // itself.
+            // A queue from each machine to each. The client is machine n; a server's own drawing is a message
+            // to itself.
             const std::size_t from = random_() % (n + 1);
             const std::size_t to = random_() % n;
             auto& queue = queues_[{from, to}];
@@ -208,7 +208,7 @@ class RandomCluster {
         EXPECT_EQ(seen.merged, std::multiset<ServerId>(t.incoming.begin(), t.incoming.end()));
         EXPECT_EQ(seen.tiles, t.has_tile ? 1 : 0);
         EXPECT_TRUE(finished_.emplace(frame, server).second) << "finished twice";
-        // The client counts a frame as over when all have reported, in the order of frames.
+        // For the client a frame is over when all have reported; frames end in order.
         const auto done = [&](FrameNumber f) {
             for (std::size_t s = 0; s < swaps_.size(); ++s)
                 if (finished_.count({f, s}) == 0) return false;

@@ -14,7 +14,8 @@
 
 namespace swath::test {
 
-// Draws the first object it is given as a flat rectangle at depth 0.5: colour and id say which object it was.
+// Draws the first object of its ranges as a flat rectangle at depth 0.5, whose colour and id name that
+// object.
 class FakeRenderer final : public Renderer {
   public:
     Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override {
@@ -41,30 +42,30 @@ class FakeRenderer final : public Renderer {
     Rect rect_;
 };
 
-// A server in this process, and the programs that it talks with: a client, a display and other servers, each
-// as far as a test brings it up. The model is a cube of a few objects that the server gets from its client.
+// A server in this process, and its peers: a client, a display and other servers, each as far as a test
+// brings it up. The model is a cube of a few objects that the server gets from its client.
 class ServerTest : public testing::Test {
   protected:
     ServerTest();
 
     ServerSetup setup(std::size_t server = 0) const;
-    // To the display and the servers before this one, which listen at doors of their own.
+    // The addresses of the display and the servers before this one, which listen at doors of their own.
     Connect connect_to(std::size_t before = 0);
     std::unique_ptr<Peer> come(const Hello& hello);
     std::unique_ptr<Peer> client() { return come(hello_of(Role::kClient)); }
-    // The client has sent its setup and, if asked, the model.
+    // A client that has sent its setup and, if asked, the model.
     std::unique_ptr<Peer> ready_client(const ServerSetup& setup);
-    // All the way: the display and the other servers are connected, in display_ and others_.
+    // A client whose server is connected to the display and the other servers, in display_ and others_.
     std::unique_ptr<Peer> connected_client(std::size_t server = 0, std::size_t count = 1);
 
-    // 8 x 4 pixels of which this server draws and owns all.
+    // A frame of 8 x 4 pixels, all of which this server draws and owns.
     RenderFrame task(FrameNumber frame) const;
     Buffer model_bytes() const;
 
     static constexpr std::uint64_t kSession = 42;
     TemporaryFolder cache_;
     Loop loop_;
-    std::function<Status()> before_renderer_ = [] { return Status(); };  // runs where renderers are made
+    std::function<Status()> before_renderer_ = [] { return Status(); };  // called by the factory of renderers
     ServerOptions options_;
     RendererSetup asked_;  // by the newest call of the factory
     Buffer blob_;

@@ -4,14 +4,14 @@
 
 #include "tests/server/server_fixture.h"
 
-// Frames: what goes out for a task, and what a client or another server may not send.
+// Frames: what a task sends out, and what clients and servers may not send.
 
 namespace swath::test {
 namespace {
 
 using testing::MatchesRegex;
 
-// What another server sends: one flat rectangle.
+// The pixels of another server: one flat rectangle.
 struct Pixels {
     BodySizes sizes;
     Buffer body;
@@ -108,13 +108,13 @@ TEST_F(ServerFrames, AreSwappedAndMergedByDepthThenId) {
 
     RenderFrame second = shared_task(1);
     second.group = {1};
-    send_swath(1, rectangle({2, 0, 4, 4}, 0.5f, 0, 7));  // before the task; as near, and of a smaller id
+    send_swath(1, rectangle({2, 0, 4, 4}, 0.5f, 0, 7));  // before the task; as near, with a smaller id
     client->send(second);
     EXPECT_EQ(tile(1, {{0, 0, 4, 4}}), "22770000 22770000 22770000 22770000 ");
     client->expect<ServerReport>();
 
     client->send(shared_task(2));
-    send_swath(2, rectangle({2, 0, 4, 4}, 0.5f, 1, 7));  // as near, and of a larger id
+    send_swath(2, rectangle({2, 0, 4, 4}, 0.5f, 1, 7));  // as near, with a larger id
     EXPECT_EQ(tile(2, {{0, 0, 4, 4}}), "11110000 11110000 11110000 11110000 ");
 }
 

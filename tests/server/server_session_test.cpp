@@ -2,7 +2,7 @@
 
 #include "tests/server/server_fixture.h"
 
-// Setting up: the model, the connections, and who may come and go.
+// Sessions: the model, the connections, and peers that come and go.
 
 namespace swath::test {
 namespace {
@@ -109,7 +109,7 @@ TEST_F(ServerTest, RefusesPartsWhileItLoadsTheModel) {
     one->send(ModelPart{0}, model_bytes());
     loop_.run_until([&] { return loading.load(); });
     one->send(ModelPart{0}, model_bytes());
-    go_on.set_value();  // before the loop runs: the session's end waits for the renderer, in this thread
+    go_on.set_value();  // before the loop runs: the session's end waits for the renderer in this thread
     EXPECT_EQ(one->ending(), "ModelPart is not expected now");
 }
 
@@ -146,7 +146,7 @@ TEST_F(ServerTest, ConnectsToTheDisplayAndTheServersThatWereThereBefore) {
     EXPECT_EQ(one->ending(), "Connect is not expected now");
 }
 
-// A connection that is merely open takes no pixels yet.
+// An open connection takes no pixels yet.
 TEST_F(ServerTest, IsNotConnectedBeforeAllHaveReadItsHello) {
     const auto one = ready_client(setup(1));
     one->send(connect_to(1));
@@ -191,7 +191,7 @@ TEST_F(ServerTest, TurnsAwayServersOfOtherSessionsAndStrangers) {
         return come(hello_of(Role::kServer, session, server))->ending();
     };
     EXPECT_EQ(turned_away(41, 2), "this server is in another session");
-    EXPECT_EQ(turned_away(kSession, 2), "server 2 is not expected here");  // there is one already
+    EXPECT_EQ(turned_away(kSession, 2), "server 2 is not expected here");  // it is there already
     EXPECT_EQ(turned_away(kSession, 0), "server 0 is not expected here");  // we connect to that one
     EXPECT_EQ(turned_away(kSession, 1), "server 1 is not expected here");  // that is ourselves
     EXPECT_FALSE(one->closed.has_value());
@@ -238,7 +238,7 @@ TEST_F(ServerTest, TakesServersThatJoinLaterAndForgetsThoseThatLeave) {
 
     newcomer->connection->finish();
     others_[1]->connection->finish();
-    const auto again = come(hello_of(Role::kServer, kSession, 7));  // another one with that number
+    const auto again = come(hello_of(Role::kServer, kSession, 7));  // another server with that number
     loop_.run_until([&] { return again->connection->has_clock_offset(); });
     one->send(task(1));
     display_->expect<TilePixels>();
@@ -300,7 +300,7 @@ TEST_F(ServerTest, ServesTheNextClientAfterOneThatVanished) {
     two->expect<ServerReport>();
 }
 
-// --- cutting, drawing and culling differently
+// Cutting, drawing and culling anew.
 
 TEST_F(ServerTest, CutsTheModelAnewBetweenFrames) {
     const auto one = connected_client();
@@ -357,7 +357,7 @@ TEST_F(ServerTest, RefusesToChangeOutOfTurn) {
     const auto early = client();
     early->send(Reconfigure{});
     EXPECT_EQ(early->ending(), "Reconfigure is not expected now");
-    // The renderer takes long enough for a message that is on its way already. The session's end waits for
+    // The renderer takes long enough for a message that is already on its way. The session's end waits for
     // it, in this thread.
     const auto slow = std::make_shared<std::atomic<bool>>(false);
     before_renderer_ = [slow] {

@@ -7,23 +7,23 @@
 
 namespace swath::test {
 
-// What tests of renderers share: something to draw, from somewhere, and whether two pictures are the same.
+// For tests of renderers: scenes, views, and a comparison of two pictures.
 
 ObjectSet builtin_scene(const std::string& model, std::size_t triangles);
 // From outside, all of it.
 View view_of(const ObjectSet& scene, int width = 97, int height = 61);
 std::vector<DrawRun> all_of(const ObjectSet& scene);
 
-// Draws and reads; what fails is a failure of the test.
+// Draws and reads; an error fails the test.
 PixelFrame draw(Renderer& renderer, std::span<const DrawRun> runs, const View& view, const Rect& rect);
 
 struct Difference {
     int pixels = 0;  // that differ
-    int active = 0;  // of `a`
+    int active = 0;  // in `a`
 };
-// Bit by bit; background has a depth only.
+// Compares bit by bit; of the background only the depth.
 Difference compare(const PixelFrame& a, const PixelFrame& b, const Rect& rect);
-// And not empty.
+// Expects that they are equal, and not empty.
 void expect_same(const PixelFrame& a, const PixelFrame& b, const Rect& rect);
 
 }  // namespace swath::test

@@ -30,7 +30,7 @@ Mesh cube(float size) {
 }
 
 Mesh triangle_soup(std::size_t triangles, std::uint32_t seed) {
-    std::mt19937 generator(seed);  // its numbers, unlike the distributions', are the standard's
+    std::mt19937 generator(seed);  // its numbers are the same everywhere, unlike those of distributions
     const auto number = [&] { return static_cast<float>(generator() >> 8) / 16777216.0f; };
     Mesh mesh;
     for (std::size_t t = 0; t < triangles; ++t) {
@@ -42,7 +42,7 @@ Mesh triangle_soup(std::size_t triangles, std::uint32_t seed) {
             vertex.colour = {static_cast<std::uint8_t>(t), static_cast<std::uint8_t>(t >> 8), 0, 255};
             if (t % 5 != 4 || corner != 0) mesh.vertices.push_back(vertex);
         }
-        // Every fifth triangle takes over a corner of the one before; every eleventh comes twice.
+        // Every fifth triangle shares a corner with the one before; every eleventh comes twice.
         const auto last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
         mesh.indices.insert(mesh.indices.end(), {last - 2, last - 1, last});
         if (t % 11 == 10 && ++t < triangles)

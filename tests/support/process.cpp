@@ -26,7 +26,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr int kPipeBytes = 1 << 20;
-constexpr std::chrono::seconds kDying(5);  // what a killed program may take to be gone
+constexpr std::chrono::seconds kDying(5);  // a killed program is gone within this
 
 [[noreturn]] void fail_with_errno(const std::string& what, int code) {
     throw std::runtime_error(what + ": " + std::strerror(code));
@@ -39,7 +39,7 @@ int milliseconds_until(SteadyClock::time_point deadline) {
 
 int open_process(pid_t pid) { return static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)); }
 
-// A pipe, both ends close-on-exec.
+// A pipe; both ends close on exec.
 std::array<int, 2> make_pipe() {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_with_errno("pipe", errno);
@@ -49,7 +49,7 @@ std::array<int, 2> make_pipe() {
 }
 
 std::string read_all(const std::string& path) {
-    // Not by iterators, which throw when a process vanishes while its file is read.
+    // Iterators would throw when a process vanishes while its file is read.
     std::ostringstream text;
     text << std::ifstream(path).rdbuf();
     return text.str();
@@ -126,13 +126,13 @@ void Process::signal(int number) const {
     if (!ended_) ::kill(pid_, number);
 }
 
-// Once more what was written and whether the program has ended; false when the time is up.
+// Reads new output once, and sees whether the program has ended; false when the time is up.
 bool Process::pump(SteadyClock::time_point deadline) {
     std::array<pollfd, 3> waits{pollfd{out_.fd, POLLIN, 0}, pollfd{err_.fd, POLLIN, 0},
                                 pollfd{ended_ ? -1 : exit_fd_, POLLIN, 0}};
     const int ready = ::poll(waits.data(), waits.size(), milliseconds_until(deadline));
     if (ready < 0 && errno != EINTR) fail_with_errno("poll", errno);
-    // The end first: what the program wrote before is then in the pipes.
+    // Looks for the end first: all output before it is then in the pipes.
     if (waits[2].revents != 0 && ::waitpid(pid_, &status_, WNOHANG) == pid_) {
         ended_ = true;
         end_ = SteadyClock::now();

@@ -8,20 +8,19 @@
 
 namespace swath::test {
 
-// How a program ended and what it wrote.
+// The end of a program, and its output.
 struct Finished {
-    int exit_code = -1;  // -1 when a signal ended it
+    int exit_code = -1;  // -1 if a signal ended it
     int signal = 0;      // that signal
     std::string out;
     std::string err;
     std::chrono::milliseconds took{0};
 };
 
-// A program run as a child process: without a shell, stdin empty, stdout and stderr kept. Not thread-safe;
-// what the program writes is read while one of the waiting functions runs (and the pipes hold a megabyte
-// besides). The destructor kills the program and everything that it has started. Waiting throws
-// std::runtime_error, with what was written so far, when the time is up; the program and its children are
-// killed first.
+// A program run as a child process: without a shell, stdin empty, stdout and stderr kept. Output is read
+// while one of the waiting functions runs; the pipes hold a megabyte besides. The destructor kills the
+// program and everything that it has started. Waiting throws std::runtime_error, with the output so far, when
+// the time is up; the program and its children are killed first. Not thread-safe.
 class Process {
   public:
     struct Options {
@@ -36,9 +35,9 @@ class Process {
 
     pid_t pid() const { return pid_; }
     void signal(int number) const;
-    // The first line of stdout or stderr that contains `text`, also one that came before.
+    // Waits for a line of stdout or stderr that contains `text`, and returns it; the line may be an old one.
     std::string wait_for_line(const std::string& text, std::chrono::milliseconds limit);
-    // Until it has ended; its children may live on.
+    // Waits until the program has ended; its children may live on.
     Finished wait(std::chrono::milliseconds limit);
 
   private:
@@ -65,7 +64,7 @@ class Process {
 std::vector<pid_t> living_descendants(pid_t ancestor);
 // "swath-server"; empty when it is gone.
 std::string program_of(pid_t pid);
-// Whether all of these, which are ours or our descendants', end before the time is up.
+// True if all of these, which are ours or our descendants', end before the time is up.
 bool all_end_within(const std::vector<pid_t>& pids, std::chrono::milliseconds limit);
 // Makes orphans among our descendants our children, so that living_descendants(getpid()) finds them.
 void adopt_orphans();

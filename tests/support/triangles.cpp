@@ -132,7 +132,7 @@ Triangles degenerate() {
     return made;
 }
 
-// In three planes, on top of one another, and every one of them twice or thrice.
+// Triangles in three planes, on top of one another, each of them twice or thrice.
 Triangles coplanar() {
     Triangles made;
     Numbers numbers(14);
@@ -149,7 +149,7 @@ Triangles coplanar() {
     return made;
 }
 
-// A unit in the last place or two in size.
+// Triangles as large as a unit in the last place or two.
 Triangles grains() {
     Triangles made = soup(50, 0.5f, 15);
     Numbers numbers(16);

@@ -11,7 +11,8 @@
 
 namespace swath::test {
 
-// The same numbers on every machine: the generator's are the standard's, the distributions' are not.
+// Random numbers that are the same on every machine: the standard fixes the generator's, not the
+// distributions'.
 class Numbers {
   public:
     explicit Numbers(std::uint32_t seed) : generator_(seed) {}
@@ -28,7 +29,7 @@ class Numbers {
     std::mt19937 generator_;
 };
 
-// Triangles as trees are built over them.
+// Triangles in the form that trees are built over.
 struct Triangles {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
@@ -41,7 +42,7 @@ struct Triangles {
     Box box() const;
     void add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
     void add(const Triangles& more);
-    // A view, which this must outlive.
+    // A view; this must outlive it.
     SahTriangles view() const {
         return {reinterpret_cast<const std::byte*>(positions.data()), sizeof(glm::vec3), positions.size(),
                 indices};
@@ -49,23 +50,23 @@ struct Triangles {
 };
 
 Triangles moved(Triangles triangles, float factor, const glm::vec3& by = glm::vec3(0));
-// Of any place in a box of edge 2 around 0, each in a box of edge `size`.
+// Triangles anywhere in a box of edge 2 around 0, each in a box of edge `size`.
 Triangles soup(std::size_t count, float size, std::uint32_t seed);
-// A closed mesh around 0 whose surface is seen from everywhere within 0.2 of it: a sphere with bumps of up to
-// half its radius 1.
+// A closed mesh around 0: a sphere of radius 1 with dents as deep as `bumps`. Up to 0.5, its whole surface is
+// seen from everywhere within 0.2 of the centre.
 Triangles bumpy_sphere(std::uint32_t rings, float bumps, std::uint32_t seed);
 // The faces of `edge` by `edge` by `edge` cells of edge 1 between (0, 0, 0) and (edge, edge, edge), each of
 // two triangles: every vertex, edge and face lies in three, two and one axis planes with many others.
 Triangles grid_of_squares(int edge);
 
-// What trees and rays are tried on: soups, and what goes wrong easily.
+// Inputs for trees and rays: soups, and difficult ones.
 struct TriangleSet {
     std::string name;
     Triangles triangles;
 };
 const std::vector<TriangleSet>& triangle_sets();
 
-// Settings at the edges of what they may be, by what is unusual about them.
+// Settings at their limits, named by what is unusual about them.
 struct NamedSettings {
     std::string name;
     SahSettings settings;

@@ -22,10 +22,10 @@ using boost::system::error_code;
 
 namespace {
 
-// The loop's own executor, not any: the analyzer of clang-tidy takes that one's for a null pointer.
+// The concrete executor: clang-tidy's analyzer takes that of any_io_executor for a null pointer.
 using Stream = beast::basic_stream<tcp, asio::io_context::executor_type>;
 
-// Runs the loop until `done`; whether it is in time.
+// Runs the loop until `done`; false if the time is up before.
 bool run_until(asio::io_context& io, std::chrono::milliseconds limit, const std::function<bool()>& done) {
     const auto deadline = std::chrono::steady_clock::now() + limit;
     while (!done()) {
@@ -50,7 +50,7 @@ HttpAnswer http_exchange(const Address& address, std::string_view request) {
     std::string all;
     asio::async_write(stream, asio::buffer(request.data(), request.size()),
                       [](const error_code&, std::size_t) {});
-    // Reading ends with the stream, whatever became of the request.
+    // Reads until the stream ends, even if the request could not be sent.
     asio::async_read(stream, asio::dynamic_buffer(all), [](const error_code&, std::size_t) {});
     io.run();
 
@@ -138,7 +138,7 @@ bool WebClient::send(std::string_view message, bool text) {
 std::optional<WebMessage> WebClient::next(std::chrono::milliseconds limit) {
     Impl& impl = *impl_;
     if (impl.closed) return std::nullopt;
-    // A read that was begun goes on over calls.
+    // A pending read goes on from call to call.
     if (!std::exchange(impl.reading, true)) {
         impl.came = false;
         impl.socket.async_read(impl.buffer, [&impl](const error_code& error, std::size_t) {

@@ -16,13 +16,13 @@ namespace swath::test {
 inline constexpr std::chrono::milliseconds kWebPatience = std::chrono::seconds(20);
 
 struct HttpAnswer {
-    int status = 0;  // 0: no answer came, or none that is HTTP
+    int status = 0;  // 0: no answer, or none that is HTTP
     std::string head;
     std::string body;
 };
 // Sends these bytes on a connection of their own and reads until the other end closes.
 HttpAnswer http_exchange(const Address& address, std::string_view request);
-// One request with the usual head. `fields` are more of them, each with its end of line.
+// Sends one request with the usual head. `fields` are more header fields, each with its end of line.
 HttpAnswer http_get(const Address& address, const std::string& target, const std::string& fields = {});
 
 struct WebMessage {
@@ -35,12 +35,12 @@ class WebClient {
   public:
     struct Options {
         std::string token;
-        std::string host;    // as the page is asked for; empty: the address
-        std::string origin;  // empty: http:// and the host; "none": none
+        std::string host;    // of the request; empty: the address
+        std::string origin;  // empty: http:// and the host; "none": no such field
         std::string cookie;
-        int receive_buffer_bytes = 0;  // of the socket; 0: what the system gives
+        int receive_buffer_bytes = 0;  // the socket's; 0: the system's default
     };
-    // Opens /live. The error is the status and text of a refusal.
+    // Opens /live. The error has the status and text of a refusal.
     static Result<std::unique_ptr<WebClient>> connect(const Address& address, const Options& options);
     static Result<std::unique_ptr<WebClient>> connect(const Address& address, const std::string& token = {});
     ~WebClient();
@@ -51,7 +51,7 @@ class WebClient {
     bool send(std::string_view message, bool text = true);
     // The next message; nothing if none comes in time or the connection has ended.
     std::optional<WebMessage> next(std::chrono::milliseconds limit = kWebPatience);
-    // Why the connection ended, as the code of its close, or 1006 without one; nothing while it lives.
+    // The close code of the ended connection, 1006 without one; nothing while it lives.
     std::optional<int> close_code() const;
     void close();
 

@@ -70,7 +70,7 @@ Peer::Peer(Loop& loop, tcp::socket socket, const Hello& hello_to_say)
       }()) {}
 
 void Peer::send(const Message& message, Buffer bytes) {
-    // What it may send is in the other end's Hello.
+    // The other end's Hello says what it may send.
     loop_.run_until([this] { return hello || closed; });
     const auto sent = connection->offer(message, std::move(bytes));
     EXPECT_TRUE(sent.has_value()) << sent.error().message;

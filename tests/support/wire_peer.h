@@ -13,8 +13,8 @@
 
 namespace swath::test {
 
-// An event loop that a test runs until something has happened, with real sockets on loopback and all ends of
-// them in the test's own thread.
+// An event loop that a test runs until something has happened. Sockets on loopback are real, and all their
+// ends are in the test's thread.
 class Loop {
   public:
     // False, and a test failure, if it has not happened within ten seconds.
@@ -24,7 +24,7 @@ class Loop {
     boost::asio::io_context io{1};
 };
 
-// Listens on a free port and keeps who comes.
+// Listens on a free port and keeps connections.
 class Door {
   public:
     explicit Door(Loop& loop);
@@ -41,8 +41,8 @@ boost::asio::ip::tcp::socket connect(Loop& loop, const Address& address);
 // Both ends of a connection.
 std::pair<boost::asio::ip::tcp::socket, boost::asio::ip::tcp::socket> socket_pair(Loop& loop);
 
-// A program at the other end of a connection, as far as a test needs one: it says Hello, keeps what comes and
-// sends what it is told to.
+// A program at the other end of a connection, as far as a test needs one: it says Hello, keeps all messages
+// and sends what it is told to.
 class Peer {
   public:
     Peer(Loop& loop, boost::asio::ip::tcp::socket socket, const Connection::Options& options,
@@ -56,7 +56,7 @@ class Peer {
     // The next message, which must be an M; its body is kept in `body`.
     template <class M>
     M expect();
-    // Why the connection ended, once it has: "" after a Bye.
+    // Waits for the end of the connection and returns the reason: "" after a Bye.
     std::string ending();
 
     std::shared_ptr<Connection> connection;
@@ -81,7 +81,7 @@ M Peer::expect() {
     return M{};
 }
 
-// The other end without any manners: sends bytes, and reads them.
+// A bad peer: sends and reads any bytes.
 class RawPeer {
   public:
     RawPeer(Loop& loop, boost::asio::ip::tcp::socket socket) : loop_(loop), socket_(std::move(socket)) {}

@@ -11,7 +11,7 @@ const middle = {x: 0, y: 0};
 const close = (a, b, tolerance = 1e-9) =>
     assert.ok(a.every((value, i) => Math.abs(value - b[i]) <= tolerance), `${a} is not ${b}`);
 
-// Where the camera sees a point, in half picture heights from the centre.
+// The position at which the camera sees a point, in half picture heights from the centre.
 function seen(camera, point) {
     const into = normalize(subtract(camera.target, camera.eye));
     const right = normalize([
@@ -57,7 +57,7 @@ test('orbiting never passes a pole, however far it goes', () => {
         const camera = cameras.orbit(home, 0, upwards);
         const sine = dot(normalize(camera.eye), home.up);
         assert.ok(Math.abs(sine) > 0.999 && Math.abs(sine) < 0.99999);
-        // Still on the side it came from.
+        // It stays on its side.
         assert.ok(camera.eye[2] > 0);
     }
 });

@@ -6,7 +6,7 @@ import {Wishes} from '../../../display/web/wishes.js';
 
 const camera = from_numbers([0, 0, 5, 0, 0, 0, 0, 1, 0, 45]);
 
-// Wishes that go out while `line.up`, and what makes an animation frame.
+// Makes wishes, which go out while `line.up`, and a function that plays an animation frame.
 function setup() {
     const line = {up: true};
     const callbacks = [];
