@@ -13,9 +13,9 @@ namespace swath {
 namespace {
 
 constexpr int kJpegQuality = 90;
-// Of zlib 1 to 9. The SUB filter with level 1 is the fastest that still makes rendered pictures small.
+// zlib's level, 1 to 9. Level 1 with the SUB filter is the fastest that still makes rendered pictures small.
 constexpr int kPngLevel = 1;
-// Bytes of an IDAT chunk. libpng's own 8 KiB means a call and a checksum per 8 KiB.
+// The bytes of an IDAT chunk. libpng's default means a call and a checksum every 8 KiB.
 constexpr std::size_t kPngChunkBytes = 256 * 1024;
 // Deflate never packs better than 1032 to 1.
 constexpr std::uint64_t kMaxDeflateRatio = 1032;
@@ -25,7 +25,7 @@ std::size_t picture_bytes(int width, int height) {
     return row_bytes(width) * static_cast<std::size_t>(height);
 }
 
-// Where libpng writes, and why it gave up.
+// Takes what libpng writes, and its error.
 struct PngSink {
     Buffer file;
     std::string error;
@@ -37,7 +37,7 @@ struct PngSink {
     try {
         static_cast<PngSink*>(png_get_error_ptr(png))->error = message;
     } catch (...) {
-        // Out of memory while saying so: the message stays empty.
+        // Without memory for the message it stays empty.
     }
     png_longjmp(png, 1);
 }
@@ -93,7 +93,7 @@ struct DestroyJpeg {
 Buffer encode_jpeg(const Picture& picture) {
     const std::unique_ptr<void, DestroyJpeg> jpeg(tjInitCompress());
     if (jpeg == nullptr) throw std::runtime_error(std::string("JPEG: ") + tjGetErrorStr2(nullptr));
-    // The largest that it can get: turbojpeg writes into our block and never makes one of its own.
+    // The largest size that the file can have, so that turbojpeg needs no block of its own.
     unsigned long size = tjBufSize(picture.width, picture.height, TJSAMP_420);
     Buffer file(size);
     unsigned char* out = file.data();
@@ -104,7 +104,7 @@ Buffer encode_jpeg(const Picture& picture) {
     return file;
 }
 
-// libpng's simplified reader: it keeps its longjmps to itself.
+// libpng's simplified reader, which lets no longjmp out.
 struct PngImage {
     PngImage() { image.version = PNG_IMAGE_VERSION; }
     PngImage(const PngImage&) = delete;
@@ -140,7 +140,7 @@ Result<Picture> decode_png(std::span<const std::uint8_t> bytes) {
     if (image.width > kMaxSide || image.height > kMaxSide)
         return fail("PNG: {} x {} pixels, the limit is {} x {}", image.width, image.height, kMaxPictureSide,
                     kMaxPictureSide);
-    // A few bytes that announce a huge picture get no memory: even one bit a pixel would not fit.
+    // A few bytes that announce a huge picture get no memory: they cannot hold even one bit a pixel.
     if (std::uint64_t{image.height} * (image.width / 8) > kMaxDeflateRatio * bytes.size())
         return fail("PNG: {} x {} pixels cannot be in {} bytes", image.width, image.height, bytes.size());
 
@@ -148,7 +148,7 @@ Result<Picture> decode_png(std::span<const std::uint8_t> bytes) {
     Picture picture{static_cast<int>(image.width), static_cast<int>(image.height), {}};
     picture.rgb.resize(picture_bytes(picture.width, picture.height));
     const png_color black{0, 0, 0};
-    // A negative stride fills the rows from the last one up.
+    // A negative stride fills rows from the last one up.
     const auto stride = -static_cast<png_int_32>(row_bytes(picture.width));
     if (png_image_finish_read(&image, &black, picture.rgb.data(), stride, nullptr) == 0)
         return fail("PNG: {}", image.message);

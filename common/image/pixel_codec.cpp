@@ -14,12 +14,11 @@ static_assert(std::endian::native == std::endian::little, "bodies are little-end
 constexpr std::uint32_t kFarBits = std::bit_cast<std::uint32_t>(kFarDepth);
 constexpr std::size_t kSwathPixelBytes = 7;  // depth and colour
 constexpr std::size_t kTilePixelBytes = 3;   // colour
-constexpr int kChunk = 16;                   // pixels that the span search looks at together
+constexpr int kChunk = 16;                   // pixels that find() tests together
 
 bool active(float depth) { return depth < kFarDepth; }
 
-// The first x in [x, end) whose pixel is active (kWanted) or not, else end. Whole chunks without one are
-// skipped.
+// The first x in [x, end) whose pixel is active (kWanted) or is not (!kWanted), else end. Skips whole chunks.
 template <bool kWanted>
 int find(const float* row, int x, int end) {
     while (x + kChunk <= end) {
@@ -116,7 +115,7 @@ Status walk_spans(std::span<const std::uint8_t> table, const Region& region, std
     return {};
 }
 
-// Three bytes a pixel, each by a four-byte store: there must be one byte of room behind the last.
+// Writes three bytes a pixel with four-byte stores, so there must be one byte of room behind the last.
 std::uint8_t* pack_rgb(const std::uint32_t* colour, int length, std::uint8_t* out) {
     for (int i = 0; i < length; ++i, out += 3) std::memcpy(out, colour + i, 4);
     return out;
@@ -222,8 +221,8 @@ BodySizes encode_tile(const PixelFrame& frame, const Region& region, Buffer& bod
 void composite_pixels(std::size_t n, const std::uint32_t* __restrict colour_in,
                       const float* __restrict depth_in, const ObjectId* __restrict id_in,
                       std::uint32_t* __restrict colour, float* __restrict depth, ObjectId* __restrict id) {
-    // Depths are not negative, so their bits order as they do; ids are below 2^31. Signed integer comparisons
-    // and selects without branches: the compiler makes vectors of them.
+    // Depths are not negative, so their bits are ordered like them, and ids are below 2^31: signed integer
+    // comparisons and selects without branches, of which the compiler makes vectors.
     for (std::size_t i = 0; i < n; ++i) {
         const auto theirs = std::bit_cast<std::int32_t>(depth_in[i]);
         const auto ours = std::bit_cast<std::int32_t>(depth[i]);
@@ -238,10 +237,10 @@ void composite_pixels(std::size_t n, const std::uint32_t* __restrict colour_in,
 
 Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
                        ObjectId object_limit, PixelFrame& frame) {
-    // The caller's plan, not the peer's word.
+    // The region comes from the caller's plan, not from the peer.
     for (const Rect& rect : region) CHECK(frame.rect().contains(rect) == true);
     if (const auto status = check_sizes(body, sizes, kSwathPixelBytes, region); !status) return status;
-    // The depths are used where they lie: a Buffer starts aligned for them.
+    // Depths are read where they lie. A Buffer is aligned for them.
     CHECK(reinterpret_cast<std::uintptr_t>(body.data()) % alignof(float) == 0u);
     const auto* const depth = reinterpret_cast<const float*>(body.data());
     std::uint32_t highest = 0;

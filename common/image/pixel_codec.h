@@ -11,9 +11,8 @@
 
 namespace swath {
 
-// How pixels travel: only active ones (depth below 1), as spans; without alpha, which is always opaque.
-// Numbers are little-endian, varints have seven bits a byte, the low ones first. docs/wire.md has a worked
-// example.
+// Only active pixels (depth below 1) travel, in spans, without alpha, which is always opaque. Numbers are
+// little-endian; varints have seven bits a byte, the low ones first. docs/wire.md has an example.
 //
 //   swath (server to server)   f32 depth per pixel | u8 R, G, B per pixel | spans | ids
 //   tile (server to display)   u8 R, G, B per pixel | spans
@@ -26,7 +25,7 @@ namespace swath {
 //             varint length > 0
 //             varint zigzag(id - id of the run before); the first counts from id 0
 //
-// The region itself does not travel: both ends know it from the plan.
+// The region itself does not travel, because both ends know it from the plan.
 struct BodySizes {
     std::uint32_t pixels = 0;
     std::uint32_t span_bytes = 0;
@@ -38,14 +37,14 @@ struct BodySizes {
 BodySizes encode_swath(const PixelFrame& frame, const Region& region, Buffer& body);
 BodySizes encode_tile(const PixelFrame& frame, const Region& region, Buffer& body);
 
-// Merges a peer's pixels into `frame`: the smaller depth wins, of equal depths the smaller id
-// (docs/design.md, "Exactness"). Nothing in `body` is trusted: sizes, spans, ids below `object_limit` and
-// depths in [0, 1) are checked, and an error says which was wrong; some pixels may have been merged by then.
-// `body` must start at a multiple of 4 and `region`, which is the caller's own, lie in frame.rect().
+// Composites a peer's pixels into `frame`: the smaller depth wins, of equal depths the smaller id
+// (docs/design.md, "Exactness"). Trusts nothing in `body`: it checks sizes, spans, ids (below `object_limit`)
+// and depths (in [0, 1)), and the error says which was wrong; some pixels may be composited by then. `body`
+// must start at a multiple of 4. `region` is the caller's own and must lie in frame.rect().
 Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
                        ObjectId object_limit, PixelFrame& frame);
 
-// Writes a server's pixels into the picture, in which `region` must lie. Checked like composite_swath.
+// Writes a server's pixels into the picture, in which `region` must lie. Checks like composite_swath.
 Status assemble_tile(std::span<const std::uint8_t> body, const BodySizes& sizes, const Region& region,
                      Picture& picture);
 
@@ -53,10 +52,10 @@ Status assemble_tile(std::span<const std::uint8_t> body, const BodySizes& sizes,
 void composite_pixels(std::size_t n, const std::uint32_t* colour_in, const float* depth_in,
                       const ObjectId* id_in, std::uint32_t* colour, float* depth, ObjectId* id);
 
-// Fills a picture of the size with one colour.
+// Makes a picture of that size in one colour.
 void fill(Picture& picture, int width, int height, const Rgb& background);
 
-// A frame that one renderer has drawn whole, as a picture.
+// The picture of a frame that one renderer has drawn whole.
 Picture to_picture(const PixelFrame& frame, const Rgb& background);
 
 }  // namespace swath

@@ -10,14 +10,14 @@ namespace {
 
 std::string text(const Rect& r) { return fmt::format("[{},{})x[{},{})", r.x0, r.x1, r.y0, r.y1); }
 
-// A rectangle of someone's tile.
+// A rectangle of a server's tile.
 struct Piece {
     Rect rect;
     std::size_t server;
 };
 
-// A vertical sweep over the pieces: those that the sweep line crosses, ordered by y, must not overlap, so
-// a new one needs to be compared with its two neighbours only. O(n log n) comparisons.
+// Sweeps a line in x over the pieces. Those that it crosses, ordered by y, do not overlap, so a new piece
+// needs to be compared with its two neighbours only. O(n log n) comparisons.
 std::optional<std::string> overlap_problem(std::vector<Piece> pieces) {
     std::vector<std::size_t> ends(pieces.size());
     std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
@@ -55,7 +55,8 @@ std::optional<std::string> tile_problem(const FramePlan& plan) {
     for (std::size_t s = 0; s < plan.servers.size(); ++s) {
         for (const Rect& rect : plan.servers[s].tile) {
             if (rect.empty()) continue;
-            // Before any arithmetic: the numbers may come from a peer, and differences could overflow.
+            // This comes before any arithmetic: the numbers may come from a peer, and differences may
+            // overflow.
             if (!viewport.contains(rect))
                 return fmt::format("tile of server {}: {} leaves the viewport {}", s, text(rect),
                                    text(viewport));
@@ -64,7 +65,7 @@ std::optional<std::string> tile_problem(const FramePlan& plan) {
         }
     }
     if (auto overlap = overlap_problem(std::move(pieces))) return overlap;
-    // Without overlaps and inside of the viewport, the sum of areas decides whether all of it is covered.
+    // The pieces lie in the viewport and do not overlap, so the sum of areas says whether they cover it.
     if (covered != viewport.area())
         return fmt::format("tiles: cover {} of {} pixels", covered, viewport.area());
     return std::nullopt;

@@ -11,15 +11,15 @@ namespace swath {
 
 // One server's part of a frame.
 struct ServerShare {
-    std::vector<ObjectId> group;  // objects it draws, ascending
-    Region tile;                  // pixels it owns and sends to the display
-    Rect content;                 // pixels its group can touch; contains all that it draws
+    std::vector<ObjectId> group;  // the objects that it draws, ascending
+    Region tile;                  // the pixels that it owns and sends to the display
+    Rect content;                 // contains all pixels that its group can touch
     bool operator==(const ServerShare&) const = default;
 };
 
-// A frame, decided: who draws which objects and who owns which pixels. Every partitioner makes one and
-// nothing downstream knows which made it: the cluster executes it, the simulator prices it, the viewer draws
-// it. A value.
+// A frame, decided: who draws which objects and who owns which pixels. Partitioners make it, the cluster
+// executes it, the simulator prices it, the page draws it; none of these knows which partitioner made it. A
+// value.
 struct FramePlan {
     FrameNumber frame = 0;
     View view;
@@ -30,12 +30,13 @@ struct FramePlan {
 // Whether every object is in exactly one group (hybrid, sort-last) or in at least one (sort-first).
 enum class Grouping { kExactlyOnce, kAtLeastOnce };
 
-// What is wrong with the plan, as one line, or nothing: tiles cover the viewport exactly once, contents lie
-// in it, groups are ascending, in range and obey `grouping`.
+// Says in one line what is wrong with a plan, or nothing. Tiles must cover the viewport exactly once,
+// contents must lie in it, groups must be ascending, below `object_count` and as `grouping` says. Trusts
+// nothing.
 std::optional<std::string> problem(const FramePlan& plan, std::size_t object_count, Grouping grouping);
 
-// Pixels that one server draws and another owns: colour, depth and id of `region` go from `from` to `to`
-// (Samanta 2000, section 4, phase 2).
+// A swath: pixels that `from` draws and `to` owns, so that their colour, depth and id are sent (Samanta 2000,
+// section 4, phase 2).
 struct Transfer {
     ServerId from{};
     ServerId to{};
@@ -43,11 +44,11 @@ struct Transfer {
     bool operator==(const Transfer&) const = default;
 };
 
-// All transfers with pixels, ordered by (from, to). A pair whose region is empty takes no part in the frame.
+// All transfers that have pixels, ordered by (from, to).
 std::vector<Transfer> transfers(const FramePlan& plan);
 
-// What server `id` sends to the display: of each of its tile's rectangles the bounding box of all contents in
-// it. Outside of this the picture is background.
+// The region that server `id` sends to the display: for each rectangle of its tile, the bounding box of all
+// contents in it. The rest of the tile is background.
 Region final_region(const FramePlan& plan, ServerId id);
 
 }  // namespace swath

@@ -8,23 +8,22 @@
 
 namespace swath {
 
-// Keeps count of the pieces that numbered frames await from servers: a server's swaths, the display's tiles.
-// Pieces come in any order, also before the frame itself is announced here, since its announcement travels on
-// another connection. Decision code: no pixels, no I/O, no clock. Not thread-safe. Errors blame the sender of
-// the event.
+// Keeps count of the pieces that frames await from servers: swaths at a server, tiles at the display. Pieces
+// come in any order, even before the frame is opened, because its announcement travels on another connection.
+// Decision code: no pixels, no I/O, no clock. Not thread-safe. Errors blame the sender of the event.
 class Gather {
   public:
-    // Pieces may arrive for at most this many frames that have not been opened.
+    // At most this many frames may be open, and pieces may come early for at most this many.
     explicit Gather(std::size_t frames_in_flight) : frames_in_flight_(frames_in_flight) {}
 
-    // Frame numbers ascend from call to call.
+    // Announces a frame and the servers that it awaits a piece from. Frame numbers must ascend.
     Status open(FrameNumber frame, const std::vector<ServerId>& incoming);
-    // From now on pieces of the (open) frame can be used; those that have arrived, ascending, are to be used
-    // now.
+    // Says that pieces of an open frame can be used from now on. Use those that it returns, which have
+    // arrived, ascending.
     std::vector<ServerId> ready(FrameNumber frame);
-    // True: use the piece now. False: keep it until ready() or open() names it.
+    // A piece has arrived. True: use it now. False: keep it until ready() names it.
     Result<bool> arrive(FrameNumber frame, ServerId from);
-    // Ready, and nothing is awaited.
+    // Whether the frame is ready and awaits nothing.
     bool complete(FrameNumber frame) const;
     void close(FrameNumber frame) { frames_.erase(frame); }
 
@@ -39,7 +38,7 @@ class Gather {
     };
     std::size_t frames_in_flight_;
     std::map<FrameNumber, Frame> frames_;
-    FrameNumber next_frame_ = 0;  // frames below it that are not in frames_ are over
+    FrameNumber next_frame_ = 0;  // a frame below it that is not in frames_ is over
 };
 
 }  // namespace swath

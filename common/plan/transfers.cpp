@@ -6,7 +6,7 @@
 namespace swath {
 namespace {
 
-// All tiles' rectangles in horizontal bands of the screen, so that a content looks only at those beside it.
+// The rectangles of all tiles, in horizontal bands of the screen, so that a content looks at few of them.
 class TileIndex {
   public:
     explicit TileIndex(const FramePlan& plan) : screen_(plan.view.viewport()) {
@@ -25,8 +25,7 @@ class TileIndex {
         ServerId owner;
     };
 
-    // The pieces that share pixels with `content`, ascending by owner and place in its tile; `found` is
-    // scratch space.
+    // Finds the pieces that share pixels with `content`, ascending by owner and index in its tile.
     void find(const Rect& content, std::vector<std::uint32_t>& found) const {
         found.clear();
         const Rect area = intersect(content, screen_);
@@ -34,7 +33,7 @@ class TileIndex {
         const std::size_t first = band(area.y0);
         for (std::size_t b = first; b <= band(area.y1 - 1); ++b)
             for (const std::uint32_t p : bands_[b])
-                // A piece is in several bands: take it in the first of them that the content reaches.
+                // A piece in several bands is taken in the first of them that the content reaches.
                 if (!intersect(pieces_[p].rect, area).empty() &&
                     b == std::max(first, band(pieces_[p].rect.y0)))
                     found.push_back(p);

@@ -22,7 +22,7 @@ struct Step {
     bool taken = false;
 };
 
-// All but the waits for messages: a server's first span may be the wait for its drawing thread.
+// All spans but waits for messages. A server's first span may be the wait for its drawing thread.
 std::vector<Step> steps_of(const FrameTimeline& frame) {
     std::vector<Step> steps;
     for (std::size_t m = 0; m < frame.machines.size(); ++m) {
@@ -47,7 +47,7 @@ class Walk {
             std::ranges::any_of(steps_, [](const Step& step) { return step.span.phase == Phase::kSwap; });
     }
 
-    // Last to first. Ends, since no step is taken twice.
+    // The path from its last step to its first. It ends, because no step is taken twice.
     std::vector<Step> run() {
         std::vector<Step> path;
         for (Step* step = last(); step != nullptr; step = cause_of(*step)) {
@@ -69,7 +69,7 @@ class Walk {
         return found != nullptr && found->span.phase != Phase::kWait ? found : nullptr;
     }
 
-    // Whether a message from one machine to another can have been what it waited for.
+    // Whether `to` can have waited for a message that was sent in `from`.
     bool can_cause(const Step& from, const Step& to) const {
         const Phase phase = from.span.phase;
         if (from.role == Role::kClient) return to.role == Role::kServer || to.role == Role::kDisplay;
@@ -82,7 +82,7 @@ class Walk {
     Step* cause_of(const Step& effect) {
         const Nanoseconds begin = effect.span.begin;
         Step* best = nullptr;
-        // Nearest end, then the own machine, then the longer span.
+        // The nearest end comes first, then the own machine, then the longer span.
         std::tuple<Nanoseconds, bool, Nanoseconds> best_rank;
         for (Step& step : steps_) {
             const bool own = step.machine == effect.machine;
@@ -98,7 +98,7 @@ class Walk {
 
     std::vector<Step> steps_;  // by end
     Nanoseconds clock_error_;
-    bool coded_ = false;  // somebody codes swaths: compositing is in host memory
+    bool coded_ = false;  // a server codes swaths, so compositing is in host memory
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ Nanoseconds earliest_begin(std::span<const FrameTimeline> frames) {
 double milliseconds(Nanoseconds t) { return static_cast<double>(t.count()) / 1e6; }
 double microseconds(Nanoseconds t) { return static_cast<double>(t.count()) / 1e3; }
 
-// A span on its way to a track.
+// A span and the track that it is shown on.
 struct PlacedSpan {
     FrameNumber frame;
     Span span;
@@ -53,7 +53,7 @@ std::vector<Process> gather(std::span<const FrameTimeline> frames) {
     return processes;
 }
 
-// First fit in order of begin: as few tracks as spans ever overlap.
+// Takes the first free track in the order of begins, which needs as few tracks as spans overlap at most.
 void assign_tracks(Process& process) {
     std::ranges::stable_sort(process.spans, {}, [](const PlacedSpan& placed) {
         return std::tuple(placed.span.begin, placed.span.end, placed.frame);

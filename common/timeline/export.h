@@ -7,21 +7,21 @@
 
 namespace swath {
 
-// Both exports are deterministic: equal timelines give equal text, whatever the locale. Times are relative to
-// the earliest span of all frames.
+// Equal timelines export to equal text in any locale. Times are relative to the earliest span of all frames.
 
 inline constexpr std::string_view kTimelineHeader = "frame,machine,kind,name,begin_ms,end_ms,cpu_ms,value";
 
-// Tidy CSV with that header, ended lines, fields quoted where RFC 4180 asks for it; import.h reads it back. A
-// row per span (kind "span", value empty; six decimals, so exact nanoseconds; cpu_ms is 0 where unknown),
-// per non-zero counter (kind "counter", times empty) and one per frame (kind "frame", name "overlap_factor",
-// machine and times empty).
+// A CSV table (RFC 4180) with that header, which import.h reads back. Rows by kind:
+//
+//   frame    one per frame: name is "overlap_factor"; machine and times are empty
+//   span     name is the phase; value is empty; six decimals make nanoseconds exact; cpu_ms is 0 if unknown
+//   counter  one per counter that is not 0; times are empty
 std::string to_csv(std::span<const FrameTimeline> frames);
 
-// The trace event format that chrome://tracing and ui.perfetto.dev open: a process per machine in order of
-// first appearance, a complete ("X") event per span in microseconds, with the frame number and, where known,
-// the CPU milliseconds as arguments. Spans of one machine that overlap (pipelined frames, several threads) go
-// to separate tracks, as few as possible. One event a line. Names that are not UTF-8 are mended.
+// The trace event format, which chrome://tracing and ui.perfetto.dev open. A machine is a process, in order
+// of first appearance. A span is a complete ("X") event in microseconds, with the frame number and, if known,
+// the CPU milliseconds as arguments. Overlapping spans of one machine (pipelined frames, several threads) are
+// on separate tracks, as few as possible. Each event has a line. Names that are not UTF-8 are mended.
 std::string to_chrome_trace(std::span<const FrameTimeline> frames);
 
 }  // namespace swath

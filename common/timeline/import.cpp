@@ -12,7 +12,7 @@ namespace swath {
 namespace {
 
 constexpr std::uint64_t kMaxFileBytes = 512ull << 20;
-constexpr double kMaxMs = 1e10;  // some months, in which a double still has single nanoseconds
+constexpr double kMaxMs = 1e10;  // four months, in which a double still tells nanoseconds apart
 
 enum Field : std::size_t { kFrame, kMachine, kKind, kName, kBegin, kEnd, kCpu, kValue };
 
@@ -22,7 +22,7 @@ bool parse_all(std::string_view text, T& value) {
     return error == std::errc{} && end == text.data() + text.size();
 }
 
-// The phase or counter of the name.
+// The phase or counter whose name is `text`.
 template <class T>
 std::optional<T> named(std::string_view text, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
@@ -37,7 +37,6 @@ Result<Nanoseconds> time(std::string_view field, std::string_view text) {
     return Nanoseconds(std::llround(ms * 1e6));
 }
 
-// Takes one row after the other.
 class Reader {
   public:
     Status take(const CsvRecord& record) {

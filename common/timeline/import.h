@@ -8,8 +8,8 @@
 
 namespace swath {
 
-// What to_csv() wrote, back: the same frames with the earliest span at 0, without machines that had neither
-// spans nor counts. Nothing in the text is trusted. Errors name the source, the line and the field.
+// Reads what to_csv() wrote: the same frames with the earliest span at 0, without machines that had neither
+// spans nor counts. Trusts nothing in the text. Errors name the source, the line and the field.
 Result<std::vector<FrameTimeline>> parse_timeline(std::string_view csv, std::string_view source);
 Result<std::vector<FrameTimeline>> read_timeline(const std::filesystem::path& file);
 

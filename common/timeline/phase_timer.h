@@ -6,8 +6,8 @@
 
 namespace swath {
 
-// Records what a thread does for a frame as spans that follow one another. Made when the work begins: the
-// time since the last span before is a wait. Borrows the clock and the spans.
+// Records what a thread does for a frame as contiguous spans. Make it when the work begins: the time since
+// the last of `spans` becomes a wait. Borrows the clock and the spans.
 class PhaseTimer {
   public:
     PhaseTimer(const Clock& clock, std::vector<Span>& spans)
@@ -16,7 +16,7 @@ class PhaseTimer {
             spans.push_back({Phase::kWait, spans.back().end, begin_, Nanoseconds(0)});
     }
 
-    // What was done since the beginning, or since the end of the phase before, was `phase`.
+    // Ends a phase, which began when the one before ended or the timer was made.
     void end(Phase phase) {
         const Nanoseconds now = clock_.now();
         const Nanoseconds cpu = clock_.thread_cpu();

@@ -22,7 +22,7 @@ double busy_ms(const MachineTimeline& machine) {
     return sum;
 }
 
-// (max - mean) / max over the frame's servers; negative where none was busy.
+// (max - mean) / max over the frame's servers; negative if none was busy.
 double imbalance(const FrameTimeline& frame) {
     double max = 0;
     double sum = 0;
@@ -95,7 +95,7 @@ std::vector<Row> rows_of(const Summary& summary) {
     return rows;
 }
 
-// At most six characters, so that all phases fit; the same number of decimals in the whole table.
+// A time in at most six characters, so that all phases fit, with the same decimals in the whole table.
 std::string cell(double ms, double largest) {
     if (largest < 999.99) return fmt::format("{:.2f}", ms);
     if (largest < 9999.9) return fmt::format("{:.1f}", ms);
@@ -103,7 +103,7 @@ std::string cell(double ms, double largest) {
     return fmt::format("{:.0e}", ms);
 }
 
-// A phase's column: its name on two lines ("pixel" above "read"), then a cell per row.
+// A phase's column: its name on two lines ("pixel" above "read") and a cell per row.
 struct Column {
     std::array<std::string, 2> head;
     std::vector<std::string> cells;
@@ -158,7 +158,7 @@ std::string table(const std::vector<Row>& rows) {
     return text;
 }
 
-// A frame's, of all machines.
+// A counter's mean over all frames, summed over the machines.
 double count(const Summary& summary, Counter counter) {
     double sum = 0;
     for (const Summary::Machine& machine : summary.machines)

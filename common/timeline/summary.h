@@ -9,8 +9,8 @@
 
 namespace swath {
 
-// What the run's table shows. A machine's means are over the frames that name it, so that a server that died
-// half-way still shows what a frame cost it; those of the run are over all frames.
+// The numbers of a run's table. A machine's means are over the frames that name it, so that a server that
+// died half-way still shows what a frame cost it. The run's means are over all frames.
 struct Summary {
     struct Machine {
         std::string name;
@@ -21,9 +21,9 @@ struct Summary {
     };
     std::vector<Machine> machines;  // in order of first appearance
     std::size_t frames = 0;
-    double frames_per_s = 0;  // frames / (last end - first begin); 0 where nothing took time
-    // 0 to 1: the mean over frames of (max - mean) / max of the busy time of the servers that the frame
-    // names. Busy time is the sum of all spans but wait. Frames in which no server was busy don't count.
+    double frames_per_s = 0;  // frames / (last end - first begin), or 0 if nothing took time
+    // 0 to 1: the mean over frames of (max - mean) / max of the busy time of the frame's servers. Busy time
+    // is the sum of all spans but waits. Frames in which no server was busy do not count.
     double imbalance = 0;
     double swap_pixels = 0;  // per frame, all servers
     double swap_bytes = 0;
@@ -33,9 +33,9 @@ struct Summary {
 
 Summary summarise(std::span<const FrameTimeline> frames);
 
-// The table as text of at most 100 columns: a row per machine and a column per phase, without phases that
-// nobody spent time in; of more than 16 servers only their mean, minimum and maximum. Below it the run's
-// numbers; triangles only where somebody counted some.
+// The table as text of at most 100 columns: a row per machine and a column per phase that took time; of more
+// than 16 servers only mean, minimum and maximum. Below it are the run's numbers, with triangles if any were
+// counted.
 std::string to_text(const Summary& summary);
 
 }  // namespace swath

@@ -10,20 +10,19 @@
 
 namespace swath {
 
-// What a machine can be doing for a frame. The same names for measured and simulated frames (see
-// docs/design.md).
+// What a machine does for a frame. Measured and simulated frames have the same phases (docs/design.md).
 enum class Phase : std::uint8_t {
     kPartition,   // client: objects and camera to a plan
     kCull,        // server: leaves of the group's objects against the content's frustum
     kRender,      // server: drawing until it is finished
     kPixelRead,   // server: colour, depth and id to host memory
     kSwap,        // server: coding and sending swath pixels to peers
-    kPixelWrite,  // server: merging received pixels ("composite" where the host does it)
+    kPixelWrite,  // server: compositing received swaths
     kFinalRead,   // server: gathering the finished tile's active pixels
     kSend,        // server: handing the tile to the display's connection
     kAssemble,    // display: tiles into the picture
     kEncode,      // display: the picture into a PNG or JPEG
-    kWait,        // any: nothing to do until a message comes
+    kWait,        // any: nothing to do for the frame, because others are not ready
 };
 inline constexpr std::size_t kPhaseCount = 11;
 std::string_view name(Phase phase);  // "partition", "cull", "render", "pixel read", ...; CHECKs the range
@@ -36,27 +35,27 @@ enum class Counter : std::uint8_t {
     kSwapBytes,       // server: bytes of those messages, framing included
     kTilePixels,      // server: active pixels sent to the display
     kTileBytes,       // server: bytes of that message, framing included
-    kReceivedPixels,  // server: active pixels merged
+    kReceivedPixels,  // server: active pixels received from peers
     kLeaves,          // server: drawn after culling
-    kSplitLevel,      // server: of the octree, where culling was shared out; 0 also where nothing was
+    kSplitLevel,      // server: at which A2SSB shared an octree among threads; 0 also if it did not
 };
 inline constexpr std::size_t kCounterCount = 9;
 std::string_view name(Counter counter);  // "triangles", "objects", "swap_pixels", ...
 
-// One stretch of one phase. Times are on the client's clock.
+// A time in which a machine did one phase. Times are on the client's clock.
 struct Span {
     Phase phase = Phase::kWait;
     Nanoseconds begin{0};
     Nanoseconds end{0};
-    Nanoseconds cpu{0};  // CPU time of the thread that did it; 0 where unknown
+    Nanoseconds cpu{0};  // CPU time of the thread that did it; 0 if unknown
     bool operator==(const Span&) const = default;
 };
 
-// What machines are called: "client", "display", and servers by their place ("server 0"). Summaries tell
-// servers by these names, so whoever records or simulates a server's time takes its name from here.
+// The name of a server's machine, like "server 0". The others are "client" and "display". Summaries tell
+// servers by these names, so whoever records or simulates a server's time must use this.
 std::string server_name(ServerId id);
 bool is_server(std::string_view machine);
-// The one process of `swath-client --single`, which is all three.
+// The machine of `swath-client --single`, one process that does all.
 inline constexpr std::string_view kSingleMachine = "single";
 
 // One machine's part of a frame.
@@ -69,13 +68,13 @@ struct MachineTimeline {
     bool operator==(const MachineTimeline&) const = default;
 };
 
-// What happened, or would happen, in one frame on every machine. A value; measured by the cluster or made by
-// the simulator. Spans of one machine may overlap those of its neighbouring frames.
+// What one frame took on every machine, as the cluster measured or the simulator computed it. A value. A
+// machine's spans may overlap those of neighbouring frames.
 struct FrameTimeline {
     FrameNumber frame = 0;
     std::vector<MachineTimeline> machines;
-    double overlap_factor =
-        1.0;  // triangles assigned to servers / triangles of the model (Samanta 2000, section 3)
+    // Triangles assigned to servers / triangles of the model (Samanta 2000, section 3).
+    double overlap_factor = 1.0;
     bool operator==(const FrameTimeline&) const = default;
 };
 
