@@ -10,7 +10,7 @@
 namespace swath {
 namespace {
 
-// Fewer are not worth waking a thread for.
+// Fewer are not worth a thread.
 constexpr std::size_t kLeastVertices = 1u << 14;
 constexpr std::size_t kLeastWords = 1u << 6;  // of 32 nodes
 
@@ -94,7 +94,7 @@ void CastScene::want(std::span<const DrawRun> runs) {
     wanted_triangles_.assign((scene_.mesh.triangle_count() + 31) / 32, 0);
     for (const DrawRun& run : runs)
         set_bits(wanted_triangles_, run.first_triangle, std::size_t{run.first_triangle} + run.triangle_count);
-    // Leaves first, by words that threads do not share.
+    // Leaves come first, by words, which threads do not share.
     wanted_nodes_.resize((tree_.nodes.size() + 31) / 32);
     const std::size_t parts = parts_for(wanted_nodes_.size(), kLeastWords, team_);
     run_parts(team_, parts, [&](std::size_t index) {
@@ -102,7 +102,7 @@ void CastScene::want(std::span<const DrawRun> runs) {
         for (std::size_t word = part.begin; word < part.end; ++word)
             wanted_nodes_[word] = wanted_leaves(word);
     });
-    // Children come after their parents.
+    // A node is wanted if a child is. Children come after their parents, so this goes backwards.
     for (std::size_t i = tree_.nodes.size(); i-- > 0;) {
         const SahNode& node = tree_.nodes[i];
         if (node.is_leaf()) continue;

@@ -12,8 +12,8 @@
 
 namespace swath {
 
-// The triangles of a model as rays meet them, with a tree over them or over some. Coordinates are scaled by a
-// power of two to at most 1. The thread that makes it builds and selects, with its team; any may cast.
+// The triangles of a model, with a tree over all or some of them for rays. Coordinates are scaled by a power
+// of two to at most 1. The thread that makes it also builds and selects, with its team; any thread may cast.
 class CastScene {
   public:
     // `scene` and `team` must outlive it.
@@ -23,25 +23,25 @@ class CastScene {
     const SahBuilder& builder() const { return builder_; }
     const SahTree& tree() const { return tree_; }
 
-    // Puts the triangles where they are at a pose; 0 at first. What was built before is then of another one.
+    // Moves the triangles to a pose, which is 0 at first. Build a tree anew after that.
     void pose(float pose);
 
-    // A tree over all triangles.
+    // Builds a tree over all triangles.
     Status build_all(const SahSettings& settings);
-    // A tree over those of `runs` only, at least one.
+    // Builds a tree over the triangles of `runs` only, of which there must be one.
     Status build(std::span<const DrawRun> runs, const SahSettings& settings);
 
-    // Limits what wanted() finds to the triangles of `runs`, which the tree must have.
+    // Limits what rays find in wanted() to the triangles of `runs`, which the tree must have.
     void want(std::span<const DrawRun> runs);
     KernelTree wanted() const;
-    // All that the tree has.
+    // Rays find all of the tree's triangles in this.
     KernelTree all() const;
 
     glm::vec3 corner(std::uint32_t triangle, int number) const;  // scaled
 
   private:
     void move();
-    // A bit for each of the nodes 32 * word and on: leaves with a triangle that is wanted.
+    // A bit for each of the 32 nodes from 32 * word on, set for leaves with a wanted triangle.
     std::uint32_t wanted_leaves(std::size_t word) const;
 
     const ObjectSet& scene_;
@@ -55,7 +55,7 @@ class CastScene {
     bool want_all_ = true;
     std::vector<std::uint32_t> wanted_triangles_;  // a bit each
     std::vector<std::uint32_t> wanted_nodes_;
-    std::vector<std::uint32_t> run_indices_;  // of build(runs), for their memory
+    std::vector<std::uint32_t> run_indices_;  // of build(), kept for their memory
     std::vector<std::uint32_t> run_triangles_;
 };
 

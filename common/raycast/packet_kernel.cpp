@@ -7,20 +7,20 @@ namespace {
 
 constexpr std::uint32_t kAllLanes = 0xffff;
 constexpr float kFar = 3e38f;
-// As deep as SAH trees get: an octree node leaves seven children waiting and counts as one cut of 48.
+// Deep enough for every SAH tree: an octree node leaves seven children waiting and is one of at most 48 cuts.
 constexpr int kStack = 7 * 48 + 2;
 
 enum class Want { kNearest, kNearestByDepth, kAny };
 
-// A node, or a part of an octree node that some of its planes have cut off.
+// A node, or the part of an octree node that some of its planes have cut off.
 struct Place {
     std::uint32_t node;
     std::uint32_t axes;   // whose planes are still to come
-    std::uint32_t child;  // what the others say of the child's number
-    std::uint32_t bit;    // of that number, for the next plane
+    std::uint32_t child;  // the child's number, as far as planes have decided it
+    std::uint32_t bit;    // of that number, which the next plane decides
 };
 
-// A part that some rays go to later, and where they enter and leave it.
+// A part that some rays go to later, and the t at which they enter and leave it.
 struct Waiting {
     Floats enter;
     Floats leave;
@@ -34,7 +34,7 @@ inline bool has(const std::uint32_t* bits, std::uint32_t i) {
     return bits == nullptr || (bits[i / 32] >> (i % 32) & 1) != 0;
 }
 
-// Rays of one kind: all signs of directions and the largest axis are the same.
+// Walks a tree with rays of one kind: their directions have the same signs and the same largest axis.
 template <Want kWant, bool kCount>
 struct Walk {
     const KernelTree& tree;
@@ -45,7 +45,8 @@ struct Walk {
     Floats origins;  // of one ray: x y z x y z x y z
     Floats direction[3];
     Floats inverse[3];
-    // How far beyond a plane, in t, a ray goes on in the child before it: what rounding may move a hit.
+    // How far beyond a plane, in t, a ray goes on in the child before it, since rounding may move a hit so
+    // far.
     Floats slack[3];
     bool negative[3];
 
@@ -57,17 +58,18 @@ struct Walk {
     Floats shear_y;
     Floats shear_z;
 
-    // The best so far.
-    Floats limit;  // in t: nothing beyond can be better
+    // The best hit so far.
+    Floats limit;  // in t: no hit beyond can be better
     Floats best;   // t or depth
     Words triangle;
     Floats weight[3];
     Floats depth_offset;
     Floats depth_scale;
     Floats inverse_scale;
-    Floats least_inverse;  // as limit, of 1 / t
+    Floats least_inverse;  // in 1 / t: no hit below can be better
     Words but;
-    // A triangle stands in several leaves and is tested once, if it is still here, with all rays.
+    // The last triangles that were tested, by number modulo kTested. A triangle may stand in several leaves;
+    // all rays are tested at once, so a second test is needless.
     static constexpr std::uint32_t kTested = 64;
     alignas(64) std::uint32_t tested[kTested];
 
@@ -82,10 +84,10 @@ struct Walk {
             reach = higher_of(reach, absolute(subtract(all(tree.low[axis]), origin[axis])));
             reach = higher_of(reach, absolute(subtract(all(tree.high[axis]), origin[axis])));
         }
-        // Woop's test is off by a few roundings of coordinates that are as large as this.
+        // Woop's test is off by a few roundings of coordinates of this size.
         const Floats off = multiply(reach, all(0x1p-17f));
         for (int axis = 0; axis < 3; ++axis) {
-            // A ray (almost) along a plane: so steep that slack decides.
+            // For a ray (almost) parallel to the planes the inverse is so large that slack decides.
             const Floats steep = all(negative[axis] ? -1e18f : 1e18f);
             const std::uint32_t flat = at_most(absolute(direction[axis]), all(1e-18f));
             inverse[axis] = divide(all(1.0f), where(flat, all(1.0f), direction[axis]));
@@ -131,7 +133,7 @@ struct Walk {
         Floats cx;
         Floats cy;
         if constexpr (kWant == Want::kNearestByDepth) {
-            // One origin for all: the corners are moved once.
+            // All rays have one origin, so the corners are moved once.
             alignas(64) float moved[16];
             store(moved, subtract(load(corner), origins));
             az = all(moved[kz]);
@@ -166,9 +168,9 @@ struct Walk {
         hit &= ~equal(sum, zero);
         if (hit == 0) return;
         const Floats along = multiply(shear_z, add(add(multiply(u, az), multiply(v, bz)), multiply(w, cz)));
-        // What is seen edge-on, or has no area, makes u, v and w that mean nothing: by their signs rays would
-        // hit it beside it. So a hit is within the corners as the ray sees them, and in the triangle's box,
-        // or next to either by rounding. The walk relies on the second.
+        // A triangle that is seen edge-on, or has no area, makes u, v and w meaningless: by their signs a ray
+        // could hit it beside it. So a hit must also be within the corners as the ray sees them and in the
+        // triangle's box, but for rounding. The walk relies on the box.
         const Floats deep = higher_of(higher_of(absolute(az), absolute(bz)), absolute(cz));
         const Floats off = multiply(deep, all(0x1p-21f));
         const Floats below_off = subtract(all(0.0f), off);
@@ -177,7 +179,7 @@ struct Walk {
                at_most(lower_of(lower_of(ay, by), cy), off) &
                at_most(below_off, higher_of(higher_of(ay, by), cy));
         if (hit == 0) return;
-        // More than t may be wrong where a ray grazes a triangle.
+        // The box gets a larger margin, because t may be off by more where a ray grazes a triangle.
         const Floats far_off = multiply(deep, all(0x1p-18f));
         const auto least_of = [&](int axis) {
             const float a = corner[axis];
@@ -194,7 +196,7 @@ struct Walk {
             return add(subtract(all(c > most ? c : most), origin[axis]), far_off);
         };
         if constexpr (kWant == Want::kNearestByDepth) {
-            // Depth from 1 / t, which it does not rise with: no division more.
+            // Depth needs no further division, and does not rise with 1 / t.
             const Floats inverse_t = divide(sum, along);
             const Floats depth = subtract(depth_offset, multiply(depth_scale, inverse_t));
             hit &= at_most(least_inverse, inverse_t) & at_least_zero(depth) & less(depth, all(1.0f));
@@ -206,7 +208,7 @@ struct Walk {
             hit &= in_box(kx) & in_box(ky);
             if (hit == 0) return;
             keep(hit, number, depth, u, v, w);
-            // Many t have one depth. Where this is depth, a greater one is for sure.
+            // Many t have the same depth, so the limit is a t whose depth is greater for sure.
             const Floats greater = add(depth, multiply(absolute(depth_offset), all(1e-6f)));
             const Floats least =
                 higher_of(multiply(subtract(depth_offset, greater), inverse_scale), all(1e-30f));
@@ -244,7 +246,7 @@ struct Walk {
     }
 
     void run() {
-        // What is left of the rays inside of the tree's box.
+        // The part of each ray that is in the tree's box.
         Floats enter = all(0.0f);
         Floats leave = all(kFar);
         for (int axis = 0; axis < 3; ++axis) {
@@ -269,7 +271,7 @@ struct Walk {
                     work->ray_steps += static_cast<std::uint64_t>(
                         __builtin_popcount(at_most(enter, lower_of(leave, limit))));
                 }
-                // The next plane of the node, as if it were a kd node.
+                // Takes the node's next plane as if it were a kd node.
                 const auto axis = lowest_bit(at.axes);
                 const Floats t = multiply(subtract(all(node.plane[axis]), origin[axis]), inverse[axis]);
                 const Floats near_leave = lower_of(leave, add(t, slack[axis]));
@@ -296,7 +298,7 @@ struct Walk {
                     continue;
                 }
             }
-            // The next one that something nearer has not made useless.
+            // Goes on with the next part that can still hold a better hit.
             do {
                 if (waiting == 0) return;
                 const Waiting& next = stack[--waiting];
@@ -327,7 +329,7 @@ struct Walk {
         __builtin_memcpy(&result, &x, sizeof result);
         return result;
     }
-    // Goes to a child, if there is anything.
+    // Sets `place` to a child. Returns whether anything in it is wanted.
     bool enters(std::uint32_t number, Place& place) const {
         const KernelNode& node = tree.nodes[number];
         place = {number, node.link & 7, 0, 1};

@@ -11,11 +11,11 @@ namespace {
 
 static_assert(sizeof(KernelNode) == sizeof(SahNode));
 
-// Fewer are not worth waking a thread for.
+// Fewer are not worth a thread.
 constexpr std::size_t kLeastCorners = 1u << 14;
 
-// Adds a ray to a packet. Its direction gets a largest component of 1/2 to 1: powers of two change no digit.
-// Returns what distances in the packet are to be multiplied with.
+// Adds a ray to a packet. Scales its direction by a power of two, which changes no digit, to a largest
+// component of 1/2 to 1. Returns the factor for distances in the packet.
 float put(RayPacket& packet, int lane, const Ray& ray) {
     const glm::vec3 size = glm::abs(ray.direction);
     const float largest = std::max({size.x, size.y, size.z});

@@ -5,9 +5,8 @@
 
 namespace swath {
 
-// A point at eye + t direction has the clip coordinates w = t, x = t u and y = t v, if the direction is the
-// inverse of the matrix's rows for x, y and w, times (u, v, 1). Then z / w = z . direction + (z . eye + z's
-// constant) / t.
+// Let M be the matrix's rows for x, y and w, and the direction M^-1 (u, v, 1). Then eye + t direction has
+// clip coordinates w = t, x = t u and y = t v, and z / w = z . direction + (z . eye + z's constant) / t.
 Result<Pinhole> Pinhole::of(const View& view, float scale) {
     const glm::dmat4 clip(view.clip_from_model);
     const auto row = [&](int r) { return glm::dvec3(clip[0][r], clip[1][r], clip[2][r]); };

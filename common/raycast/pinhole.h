@@ -7,23 +7,22 @@
 
 namespace swath {
 
-// The rays of a view: from the eye that its matrix has through the centres of pixels, in a model whose
-// coordinates are multiplied with `scale`. A ray's depth is that of its hit's point by the same matrix. A
-// value.
+// The rays of a view, from its matrix's eye through the centres of pixels, for a model whose coordinates are
+// multiplied by `scale`. A hit's depth is that of its point by the same matrix. A value.
 class Pinhole {
   public:
-    // Fails where the matrix is no perspective, has no inverse, or sees so much that rays differ by more than
-    // 2^20 in length.
+    // Fails if the matrix is no perspective, has no inverse, or sees so wide that rays differ too much in
+    // length (see RayPacket).
     static Result<Pinhole> of(const View& view, float scale);
 
-    // The rays of pixels (x, y) to (x + 3, y + 3), row by row, as the kernels take them; all lanes active.
-    // The same bits for a pixel whatever (x, y).
+    // The rays of pixels (x, y) to (x + 3, y + 3), row by row, with all lanes active. A pixel's ray has the
+    // same bits in every packet.
     RayPacket packet(int x, int y) const;
 
     const glm::vec3& eye() const { return eye_; }
 
   private:
-    // Linear in the pixel's place.
+    // A linear function of the pixel.
     struct Linear {
         double at_zero = 0;
         double per_x = 0;

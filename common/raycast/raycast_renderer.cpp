@@ -15,7 +15,7 @@
 namespace swath {
 namespace {
 
-// What a thread takes at a time: a square of so many pixels a side, a multiple of a packet's four.
+// A thread takes squares of so many pixels a side, a multiple of a packet's side.
 constexpr int kBlock = 32;
 constexpr int kSide = 4;
 static_assert(kSide * kSide == kPacketRays);
@@ -92,7 +92,7 @@ class RaycastRenderer final : public Renderer {
         }
         cast_.pose(pose);
         if (setup_.dynamic && !setup_.shadows) return cast_.build(runs, kFastSah);
-        // Shadows are cast by what is not drawn, too.
+        // Triangles that are not drawn cast shadows, too, so the tree is over all.
         if (setup_.dynamic || tree_pose_ != pose) {
             tree_pose_.reset();
             if (const auto status = cast_.build_all(setup_.dynamic ? kFastSah : kDefaultSah); !status)
@@ -134,7 +134,7 @@ class RaycastRenderer final : public Renderer {
         return parts / (parts.x + parts.y + parts.z);
     }
 
-    // The rasteriser's shading: Lambert at the vertices, of both sides, and colours in between.
+    // Shades as the rasteriser does: Lambert of both sides at the vertices, and colours in between.
     std::uint32_t shade(std::uint32_t triangle, const glm::vec3& weights, const View& view,
                         bool shadowed) const {
         glm::vec3 sum(0);
@@ -154,8 +154,8 @@ class RaycastRenderer final : public Renderer {
         return colour;
     }
 
-    // Which of the hits do not see the light. Rays start a little off the surface, on the light's side, and
-    // their own triangle casts no shadow on itself.
+    // A bit for each hit that does not see the light. Rays start a little off the surface, on the light's
+    // side, and a triangle casts no shadow on itself.
     std::uint32_t in_shadow(const KernelTree& casters, const RayPacket& packet, const PacketHits& hits,
                             const View& view) const {
         RayPacket shadow{};
@@ -171,7 +171,7 @@ class RaycastRenderer final : public Renderer {
             const float length = glm::length(normal);
             normal = length > 0 ? normal / length : view.to_light;
             if (glm::dot(normal, view.to_light) < 0) normal = -normal;
-            float away = 0;  // from the eye, as far as rounding goes
+            float away = 0;  // distance from the eye, which rounding is proportional to
             for (int axis = 0; axis < 3; ++axis)
                 away = std::max(away, std::abs(point[axis] - packet.origin[axis][lane]));
             const glm::vec3 origin = point + normal * (0x1p-15f * away);
@@ -184,10 +184,10 @@ class RaycastRenderer final : public Renderer {
     RendererSetup setup_;
     const ObjectSet& scene_;
     const PacketKernels& kernels_;
-    SteadyClock clock_;  // the team's; nobody asks for its times
+    SteadyClock clock_;  // the team needs one, though nobody asks for its times
     ThreadTeam team_;
     CastScene cast_;
-    std::optional<float> tree_pose_ = 0.0f;  // of a tree over all; none where it could not be built
+    std::optional<float> tree_pose_ = 0.0f;  // of the tree over all; none if it could not be built
     std::vector<ObjectId> objects_;          // of each triangle
     PixelFrame pixels_;                      // of the last draw
 };
