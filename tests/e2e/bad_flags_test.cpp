@@ -1,5 +1,5 @@
-// A wrong flag ends every program at once with exit code 2 and one line that names the flag and what it
-// takes.
+// A wrong flag ends every program at once with exit code 2 and one line that names the flag and the values
+// that it takes.
 #include "tests/e2e/programs.h"
 
 namespace swath::test {
@@ -9,7 +9,7 @@ struct Case {
     std::string name;
     std::string program;
     Arguments arguments;
-    std::vector<std::string> words;  // of the line
+    std::vector<std::string> words;  // in that line
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 

@@ -1,5 +1,5 @@
-// A model that cannot be drawn ends the client with exit code 1 and one line that names the file, what is
-// wrong and which limit; nothing is written.
+// A bad model ends the client with exit code 1 and one line that names the file, the fault and the limit;
+// nothing is written.
 #include <fmt/format.h>
 
 #include "tests/e2e/programs.h"
@@ -126,13 +126,14 @@ TEST_F(BadModel, BadCameraFileIsNamedWithItsLine) {
 }
 
 TEST_F(BadModel, TrianglesWithoutAreaAreNoHarm) {
-    // One of area, three without: a repeated corner, three corners on a line, three in one place.
+    // One triangle with an area, and three without: a repeated corner, three corners on a line, three in one
+    // place.
     const std::string rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n3 0 0 0\n3 2 2 1\n";
     const Arguments arguments{files_.write("thin.ply", ply(4, rows)), "--size", "64x48", "--frames", "2"};
     const std::string expected = render(arguments + Arguments{"--single"});
     expect_not_only({16, 18, 24}, expected);
     expect_same_pictures(expected, render(arguments + Arguments{"--local", "3"}));
-    // Nothing but such: an empty picture, not an error.
+    // Only such triangles make an empty picture, not an error.
     const std::string nothing = files_.write("line.ply", ply(2, "0 0 0\n1 1 1\n2 2 2\n3 0 1 2\n3 1 1 1\n"));
     expect_only({16, 18, 24}, render({nothing, "--local", "2", "--size", "64x48", "--frames", "1"}));
 }

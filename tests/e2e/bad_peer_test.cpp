@@ -1,5 +1,4 @@
-// Addresses and peers that are not what they should be: the client says so in one line, servers and displays
-// go on.
+// Bad addresses and peers: the client says so in one line, servers and displays go on.
 #include <csignal>
 
 #include "common/wire/codec.h"
@@ -18,7 +17,7 @@ class BadPeer : public EndToEnd {
             },
             servers);
     }
-    // A client whose only server is the listener; it gets `answer` and what it says is read.
+    // Runs a client whose only server is a listener that sends `answer` and reads.
     Finished client_of_raw_server(const std::string& answer, const Arguments& more = {}) const {
         const RawListener listener;
         const auto display = start("swath-display", {"--listen", "127.0.0.1:0"});
@@ -162,12 +161,12 @@ TEST_F(BadPeer, GarbageLeavesServerAndDisplayServingTheNextClient) {
             const RawConnection connection(address);
             try {
                 connection.send(bytes);
-            } catch (const std::runtime_error&) {  // closed on us before all was sent: what is wanted
+            } catch (const std::runtime_error&) {  // the program closed before all was sent, as it should
             }
         }
     }
     expect_same_pictures(expected, render(kModel + cluster->flags()));
-    // All of it at once, and clients that hold on.
+    // All at once, with clients that hold on.
     std::vector<std::unique_ptr<RawConnection>> held;
     for (int i = 0; i < 20; ++i) held.push_back(std::make_unique<RawConnection>(cluster->server_address(0)));
     expect_same_pictures(expected, render(kModel + cluster->flags()));

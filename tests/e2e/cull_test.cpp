@@ -1,4 +1,4 @@
-// However servers find what they draw, the pictures are those of a single process that draws everything.
+// With every way to cull, the pictures are those of a single process that draws everything.
 #include <fmt/format.h>
 
 #include "tests/e2e/programs.h"
@@ -11,7 +11,7 @@ const Arguments kAlgorithms{"hybrid", "mahd", "kd-split", "sort-last"};
 
 class Culling : public EndToEnd {
   protected:
-    // Every way to cull with every way to divide, on a few numbers of servers.
+    // Compares every way to cull with every algorithm, on a few numbers of servers.
     void compare(const Arguments& arguments, const std::vector<int>& servers) {
         const std::string expected = render(arguments + Arguments{"--single", "--cull", "none"});
         expect_not_only({16, 18, 24}, expected);
@@ -39,7 +39,7 @@ class Culling : public EndToEnd {
         return sum;
     }
 
-    // In its streets and houses, looking along, across and down.
+    // Cameras in its streets and houses that look along, across and down.
     Arguments inside_the_town() {
         return {"builtin:town:20000", "--size", "320x240", "--path",
                 files_.write("town.txt",
@@ -92,7 +92,7 @@ TEST_F(Culling, DrawsFewerTrianglesThanAllOfThemAndSaysHowMany) {
         EXPECT_LT(left, all / 2);
         EXPECT_GT(counted(run + where, "leaves"), counted(run + where, "objects") / 2);
     }
-    // Whoever culls finds the same.
+    // All ways find the same.
     const std::uint64_t left = counted(run + Arguments{"--single"}, "triangles");
     for (const std::string cull : {"a2ssb", "adsb"})
         EXPECT_EQ(counted(run + Arguments{"--single", "--cull", cull}, "triangles"), left);
@@ -139,7 +139,7 @@ TEST_F(ManyMaterials, LookTheSameFromEveryClusterAndHoweverFinelyTheyAreCut) {
     compare(run, {3});
 }
 
-// At depth 0 an object is all of a material.
+// At depth 0 an object is all triangles of a material.
 TEST_F(ManyMaterials, AreObjectsOfTheirOwn) {
     const Arguments run{model(),          "--size", "64x48",    "--frames", "1",
                         "--octree-depth", "0",      "--single", "--cull",   "none"};

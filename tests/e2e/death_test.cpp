@@ -1,5 +1,5 @@
-// Programs that die or are told to stop in the middle of a run: the client ends in time, says who was lost,
-// and nothing is left behind.
+// Programs that die or are told to stop in the middle of a run: the client ends in time and names the lost
+// program, and nothing is left behind.
 #include <unistd.h>
 
 #include <csignal>
@@ -61,7 +61,7 @@ TEST_F(Death, KilledRemoteServerIsNamedAndTheOthersGoOn) {
     const auto cluster = this->cluster(3);
     const auto client = running(cluster->flags());
     cluster->server(1).signal(SIGKILL);
-    // Whoever hears of it first reports it.
+    // The first peer that notices reports it.
     expect_one_error(client->wait(kSlowdown * seconds(2)), 1, {"server 1 at " + cluster->server_address(1)});
     const auto again =
         run("swath-client", Arguments{"builtin:knot:5000", "--size", "64x48", "--frames", "2", "--servers",
@@ -79,7 +79,7 @@ TEST_F(Death, KilledDisplayEndsTheRunWithinTwoSeconds) {
     EXPECT_TRUE(living_descendants(::getpid()).empty());
 }
 
-// Frozen, not dead: its connections stay open and only its silence (limit: 1.8 s) tells.
+// A frozen server's connections stay open; only its silence (limit: 1.8 s) tells.
 TEST_F(Death, FrozenServerEndsTheRunAndIsKilled) {
     const auto client = running({"--local", "3", "--silence-ms", "1800"});
     const auto servers = children_named(*client, "swath-server");
@@ -112,7 +112,7 @@ TEST_F(Death, ClientKilledWhileItStartsTakesItsServersAlong) {
     client->wait_for_line("triangles in", kPatience);
     client->signal(SIGKILL);
     EXPECT_EQ(client->wait(kPatience).signal, SIGKILL);
-    // What is starting has not been reparented to us when we look too early, so look at whoever is left.
+    // A starting program may not be our child yet if we look too early, so looks at all descendants.
     EXPECT_TRUE(all_end_within(living_descendants(::getpid()), kSlowdown * seconds(1)));
 }
 

@@ -1,5 +1,4 @@
-// The same on real models, which have what built-in ones lack: uneven triangles, real depth ties, many
-// materials.
+// The same on real models, which have uneven triangles, real depth ties and many materials.
 #include <fmt/format.h>
 
 #include "tests/e2e/programs.h"

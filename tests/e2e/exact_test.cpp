@@ -1,5 +1,4 @@
-// Whatever the algorithm and the number of servers, the pictures are those of a single process, byte for
-// byte.
+// With every algorithm and number of servers, the pictures are those of a single process, byte for byte.
 #include <fmt/format.h>
 
 #include "tests/e2e/programs.h"
@@ -11,7 +10,7 @@ struct Scene {
     std::string name;
     Arguments arguments;
     std::vector<int> servers;
-    std::string cameras = {};  // of a camera file; empty: --path is in `arguments` or an orbit
+    std::string cameras = {};  // of a camera file; empty: --path is in `arguments`, or an orbit
 };
 void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
 
@@ -80,7 +79,7 @@ const std::vector<Scene> kScenes{
 
 class ClusterPictures : public EndToEnd, public testing::WithParamInterface<Scene> {
   protected:
-    // Every number of servers with one algorithm, in turn.
+    // Renders with every number of servers, with one algorithm each, in turn.
     void compare(const std::vector<std::string>& algorithms) {
         const Scene& scene = GetParam();
         Arguments arguments = scene.arguments;
@@ -100,7 +99,7 @@ class ClusterPictures : public EndToEnd, public testing::WithParamInterface<Scen
 
 TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithTheHybridAlgorithm) { compare({"hybrid"}); }
 TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithSortLast) { compare({"sort-last"}); }
-// They differ only in where they cut, so they share the time of one.
+// These two differ only in where they cut, so they share one test's time.
 TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithSortFirst) { compare({"mahd", "kd-split"}); }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ClusterPictures, testing::ValuesIn(kScenes),

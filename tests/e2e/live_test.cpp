@@ -162,7 +162,7 @@ TEST_F(Live, EndsWellWhenAllOfItsProgramsAreInterrupted) {
     LiveViewer viewer(page(*client));
     viewer.still(viewer.wish(home_));
     for (const pid_t program : living_descendants(client->pid())) ::kill(program, SIGINT);
-    viewer.still(viewer.wish({{"width", 200}}));  // nobody has left
+    viewer.still(viewer.wish({{"width", 200}}));  // no program has left
     expect_end(*client);
 }
 

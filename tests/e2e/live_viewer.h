@@ -10,13 +10,13 @@
 
 namespace swath::test {
 
-// A page without a browser: hears what a viewer hears, answers pictures, and sends whole wishes. Everything
-// waits with a limit and fails the test when it is over.
+// A viewer without a browser: takes notes, answers pictures, and sends whole wishes. All waits have a limit,
+// after which the test fails.
 class LiveViewer {
   public:
     using Json = nlohmann::json;
 
-    // `page` as programs print it: "http://127.0.0.1:8080/".
+    // `page` is printed by programs: "http://127.0.0.1:8080/".
     explicit LiveViewer(const std::string& page);
 
     struct Picture {
@@ -30,9 +30,9 @@ class LiveViewer {
 
     // The lossless picture of a stream made from this wish.
     Picture still(std::uint64_t wish, std::uint32_t stream = 0);
-    // The first picture, whatever it is, for which this is true.
+    // The first picture for which this is true.
     Picture picture(const std::function<bool(const Picture&)>& right);
-    // The newest note of the type, when it is there and this is true of it.
+    // Waits until the newest note of the type is there and this is true of it.
     Json note(
         const std::string& type,
         const std::function<bool(const Json&)>& right = [](const Json&) { return true; });
@@ -41,12 +41,12 @@ class LiveViewer {
     std::string camera_line() const;
 
   private:
-    bool step();  // hears one message
+    bool step();  // takes one message
 
     std::unique_ptr<WebClient> client_;
     Json wish_{{"type", "wish"}, {"id", 0}};
     std::map<std::string, Json> notes_;  // the newest of each type
-    std::vector<Picture> pictures_;      // that nobody has taken
+    std::vector<Picture> pictures_;      // not yet taken
 };
 
 }  // namespace swath::test

@@ -34,7 +34,7 @@ class Membership : public EndToEnd {
         files_.write("servers", text);
     }
     std::string from_list() const { return "file:" + files_.path_of("servers"); }
-    // With a page.
+    // Starts a display with a page.
     void start_display() {
         display_ = start("swath-display", {"--listen", "127.0.0.1:0", "--view", "0"});
         display_address_ = listening_address(*display_);
@@ -94,7 +94,7 @@ TEST_F(Membership, LiveRunTakesNewcomersAndPlansAroundThoseThatLeave) {
     for (int i = 0; i < 3; ++i) servers.push_back(server());
     list({servers[0].address, servers[1].address, servers[2].address, servers[3].address});
     expect_all(4);
-    // The oldest goes while frames are drawn; a number that was chosen stays.
+    // The oldest server leaves while frames are drawn; a number of servers that was chosen stays.
     viewer.wish({{"path", "orbit"}});
     viewer.picture([](const auto& p) { return p.header["plan"].is_object(); });
     expect_stops(*servers[0].process);
@@ -106,7 +106,7 @@ TEST_F(Membership, LiveRunTakesNewcomersAndPlansAroundThoseThatLeave) {
     still_by(viewer, 2);
     viewer.wish({{"servers", nullptr}});
     expect_all(4);
-    // Struck off: they are let go, and wait for another client.
+    // Servers that are struck off the list are released, and wait for another client.
     list({servers[2].address});
     expect_all(1);
     EXPECT_EQ(run("swath-server", {"--health", "--listen", servers[1].address}).exit_code, 0);
@@ -123,7 +123,7 @@ TEST_F(Membership, LiveRunWaitsForAServerWhenAllHaveLeft) {
     const std::string before = viewer.still(viewer.wish(home_)).file;
     expect_stops(*one.process);
     viewer.note("session", [&](const Json& note) { return has_servers(note, 0); });
-    // What is wished meanwhile counts then, also what changes the setup.
+    // Wishes made meanwhile count later, also those that change the setup.
     viewer.wish({{"objects", 60}});
     const auto id = viewer.wish({{"cull", "none"}});
     const Server other = server(one.address);

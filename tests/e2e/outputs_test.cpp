@@ -1,4 +1,4 @@
-// What a run leaves: pictures, timelines, the summary, progress, and the help that explains all of it.
+// The output of a run: pictures, timelines, the summary, progress, and the help that explains all of it.
 #include <fmt/format.h>
 
 #include <map>
@@ -84,7 +84,7 @@ TEST_F(Output, CsvTimelineHasEveryPhaseOfEveryMachineInOrder) {
         EXPECT_LE(of.at("render"), of.at("pixel read"));
         EXPECT_LE(of.at("pixel read"), of.at("final read"));
         EXPECT_LE(of.at("final read"), of.at("send"));
-        // One clock for all, to within what a round trip on a busy machine blurs.
+        // All times are on one clock, as exactly as a round trip on a busy machine allows.
         constexpr double kBlur = 20 * kSlowdown;
         EXPECT_LE(begins.at({key.first, "client"}).at("partition"), of.at("cull") + kBlur);
         EXPECT_LE(of.at("send"), begins.at({key.first, "display"}).at("encode") + kBlur);

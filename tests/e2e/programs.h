@@ -15,29 +15,29 @@
 
 namespace swath::test {
 
-// Sanitizers slow programs down; every limit of ours is multiplied by this.
+// Sanitizers slow programs down; all our limits are multiplied by this.
 inline constexpr int kSlowdown = SWATH_E2E_SLOWDOWN;
 inline constexpr std::chrono::milliseconds kPatience = kSlowdown * std::chrono::seconds(60);
 
 using Arguments = std::vector<std::string>;
 Arguments operator+(Arguments left, const Arguments& right);
 
-// A folder for the test's files, the programs, and at the end the check that none of them is left.
+// A folder for the test's files, the programs, and at the end a check that no process is left.
 class EndToEnd : public testing::Test {
   protected:
     EndToEnd();
     ~EndToEnd() override;
     void TearDown() override;
 
-    // Starts "swath-client", "swath-server", "swath-display" or "swath-sim". It draws without extra threads,
-    // keeps its cache in the test's folder, and under a sanitizer waits longer for silent peers unless the
-    // arguments say how long.
+    // Starts "swath-client", "swath-server", "swath-display" or "swath-sim". It draws without extra threads
+    // and keeps its cache in the test's folder. Under a sanitizer it waits longer for silent peers, unless
+    // the arguments say how long.
     std::unique_ptr<Process> start(const std::string& program, Arguments arguments,
                                    const std::filesystem::path& folder = {}) const;
     Finished run(const std::string& program, const Arguments& arguments,
                  std::chrono::milliseconds limit = kPatience) const;
     Finished client(const Arguments& arguments) const { return run("swath-client", arguments); }
-    // The same, with exit code 0; returns the folder of the pictures, a new one.
+    // Expects exit code 0; returns the folder of the pictures, a new one.
     std::string render(const Arguments& arguments);
 
     TemporaryFolder files_;
@@ -46,14 +46,14 @@ class EndToEnd : public testing::Test {
     int renders_ = 0;
 };
 
-// A swath-display and swath-servers as somebody starts them by hand, each on a free port. Server i keeps its
-// cache in `folder`/cache_i and runs in `folder`. Ends with the object.
+// A swath-display and swath-servers as somebody would start them by hand, each on a free port. Server i keeps
+// its cache in `folder`/cache_i and runs in `folder`. All end with the object.
 class RemoteCluster {
   public:
     using Start = std::function<std::unique_ptr<Process>(const std::string&, const Arguments&)>;
     RemoteCluster(const Start& start, int servers);
 
-    // The client's flags for it.
+    // The client's flags for this cluster.
     Arguments flags() const;
     Process& server(std::size_t i) { return *servers_.at(i); }
     Process& display() { return *display_; }
@@ -67,21 +67,21 @@ class RemoteCluster {
     std::vector<std::string> server_addresses_;
 };
 
-// Where a server or display says that it listens.
+// The address that a server or display prints.
 std::string listening_address(Process& process);
 
 std::vector<std::string> file_names(const std::filesystem::path& folder);  // sorted
 std::string contents(const std::filesystem::path& file);
 
-// Both folders hold the same files, at least one, byte for byte. A difference is told in pixels.
+// Expects the same files in both folders, at least one, byte for byte. Tells differences in pixels.
 void expect_same_pictures(const std::filesystem::path& expected, const std::filesystem::path& actual);
-// Every picture in the folder shows nothing but this colour.
+// Expects that every picture in the folder has only this colour.
 void expect_only(std::array<std::uint8_t, 3> colour, const std::filesystem::path& folder);
 void expect_not_only(std::array<std::uint8_t, 3> colour, const std::filesystem::path& folder);
 
-// No sanitizer, assertion or exception has spoken.
+// Expects no message of a sanitizer, assertion or exception.
 void expect_no_crash(const Finished& finished);
-// Ended with this exit code and exactly one line that starts with "error: "; it has all these words.
+// Expects this exit code and exactly one line that starts with "error: ", and all these words in it.
 void expect_one_error(const Finished& finished, int exit_code, const std::vector<std::string>& words);
 
 }  // namespace swath::test

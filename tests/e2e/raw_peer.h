@@ -12,16 +12,16 @@ namespace swath::test {
 class RawConnection {
   public:
     explicit RawConnection(int fd) : fd_(fd) {}
-    // To a "127.0.0.1:PORT".
+    // Connects to "127.0.0.1:PORT".
     explicit RawConnection(const std::string& address);
     ~RawConnection();
     RawConnection(const RawConnection&) = delete;
     RawConnection& operator=(const RawConnection&) = delete;
 
     void send(const std::string& bytes) const;
-    // What the other end sends until it closes.
+    // Reads until the other end closes.
     std::string read_to_end(std::chrono::milliseconds limit) const;
-    // ... or until all of that is complete.
+    // Reads until all that came is complete, or the other end closes.
     std::string read_until(const std::function<bool(std::string_view all)>& is_complete,
                            std::chrono::milliseconds limit) const;
 
@@ -48,9 +48,9 @@ class RawListener {
 // An address where nobody listens.
 std::string closed_address();
 
-// A message prefix as docs/wire.md has it.
+// A message prefix as in docs/wire.md.
 std::string raw_prefix(std::uint16_t version, std::uint32_t head_bytes, std::uint32_t body_bytes);
-// A whole Hello of a client, as swath-client sends it.
+// The whole Hello of swath-client.
 std::string client_hello();
 
 }  // namespace swath::test

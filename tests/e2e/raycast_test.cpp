@@ -1,5 +1,5 @@
-// Servers that cast rays: their pictures are those of a single process that does, byte for byte, and in a
-// cluster of both kinds nearly those of the rasteriser.
+// Servers that cast rays: their pictures are those of a single process that does, byte for byte; in a cluster
+// of both kinds they are nearly those of the rasteriser.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -23,7 +23,7 @@ Result<Picture> picture_of(const std::string& file) {
 
 class Raycast : public EndToEnd {
   protected:
-    // All algorithms with all numbers of servers, or only every so many-th of these combinations.
+    // Tries all algorithms with all numbers of servers, or only one in `every` of these combinations.
     void compare(const Arguments& run, int every = 1) {
         const std::string expected = render(run + Arguments{"--single"});
         expect_not_only({16, 18, 24}, expected);
@@ -50,7 +50,7 @@ TEST_F(Raycast, PicturesOfTreesThatAreBuiltForEachFrameEqualThoseOfASingleProces
     compare(Arguments{"builtin:spheres:3000", "--renderer", "raycast", "--dynamic"} + kPicture);
 }
 
-// Every frame is of another pose.
+// Every frame has another pose.
 TEST_F(Raycast, PicturesOfAModelThatMovesEqualThoseOfASingleProcess) {
     const Arguments run = Arguments{"builtin:swarm:2000",
                                     "--renderer",
@@ -62,17 +62,17 @@ TEST_F(Raycast, PicturesOfAModelThatMovesEqualThoseOfASingleProcess) {
                                     "--path",
                                     "random"};
     compare(run + Arguments{"--dynamic"});
-    // With trees over the whole model, which move as well.
+    // The trees over the whole model move as well.
     compare(run, 5);
     compare(run + Arguments{"--dynamic", "--shadows"}, 5);
 }
 
-// Faces that coincide: the winner is that of the cut's order.
+// Where faces coincide, the order of the cut decides which shows.
 TEST_F(Raycast, PicturesOfSahObjectsEqualThoseOfASingleProcess) {
     const Arguments run =
         Arguments{"builtin:town:3000", "--objects-by", "sah", "--objects", "200"} + kPicture;
     compare(run + Arguments{"--renderer", "raycast"});
-    // Every fifth combination still has every algorithm and nearly every number.
+    // A fifth of the combinations still has every algorithm and nearly every number.
     compare(run + Arguments{"--renderer", "osmesa"}, 5);
 }
 
@@ -113,7 +113,7 @@ double share_of_different(const std::string& one, const std::string& other, int 
     return static_cast<double>(different) / static_cast<double>(pixels);
 }
 
-// How often the log says that there is no device for building trees, and why not.
+// Counts the log's lines that there is no device for building trees.
 std::size_t times_missing(const std::string& log) {
     std::size_t times = 0;
     const std::string line = "--trees-on cuda: " + missing_cuda();
@@ -146,7 +146,7 @@ TEST_F(Raycast, WithoutACudaDeviceTheLogSaysOnceThatThreadsBuildTheTrees) {
     EXPECT_EQ(times_missing(server.err), once) << server.err;
 }
 
-// Who draws with OpenGL has no trees.
+// OpenGL renderers have no trees.
 TEST_F(Raycast, OnlyRayCastersAskForACudaDevice) {
     const Finished finished =
         client(Arguments{"builtin:knot:1000", "--single", "--trees-on", "cuda"} + kPicture);
@@ -154,8 +154,8 @@ TEST_F(Raycast, OnlyRayCastersAskForACudaDevice) {
     EXPECT_EQ(times_missing(finished.err), 0u) << finished.err;
 }
 
-// Measured: at most 3 of 153,600 pixels differ by more than 4 of 255. They are at edges, where OpenGL has
-// moved a corner to its grid within the pixel. The bound leaves room for other libraries.
+// Measured: at most 3 of 153,600 pixels differ by more than 4 of 255. They are at edges, where OpenGL moves
+// corners to its grid within the pixel. The bound leaves room for other libraries.
 TEST_F(Raycast, PicturesOfBothKindsOfServerAreNearlyTheRasterisersPictures) {
     for (const char* model : {"builtin:knot:3000", "builtin:spheres:3000", "builtin:swarm:3000"}) {
         const Arguments run = Arguments{model, "--size", "320x240", "--frames", "2"};

@@ -1,4 +1,4 @@
-// Servers and a display that somebody started by hand, on the machine that runs the client or on others.
+// Servers and a display that somebody started by hand, on the machine of the client or on others.
 #include <fstream>
 
 #include "tests/e2e/programs.h"
@@ -19,7 +19,7 @@ class Remote : public EndToEnd {
             },
             servers);
     }
-    // A model that the client alone can open, under this name.
+    // Writes a model that only the client can open, and returns its path.
     std::string model_of_the_client() const {
         files_.write("mine.ply", contents_of_model());
         return "/proc/self/cwd/mine.ply";
@@ -37,7 +37,7 @@ class Remote : public EndToEnd {
                 "3 " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
         return text;
     }
-    // A client that runs where its file is.
+    // Runs a client in the folder of its file.
     std::string render_here(const Arguments& arguments) {
         std::string out = files_.path_of("here_" + std::to_string(renders_++));
         const auto process = start("swath-client", arguments + Arguments{"--out", out}, files_.path_of(""));
@@ -134,7 +134,7 @@ TEST_F(Remote, LargeModelReachesServersWithoutTheFileInParts) {
     const auto dragon = shared_model("bunny.ply");
     if (!dragon) GTEST_SKIP() << "shared model bunny.ply not found";
     const auto cluster = this->cluster(2, {"--cache", cache_});
-    // Many parts of 4 MiB would need a larger model; this one has a part and a rest.
+    // A larger model would have many parts of 4 MiB; this one has a part and a rest.
     std::filesystem::copy_file(*dragon, files_.path_of("mine.ply"));
     const Arguments arguments{"/proc/self/cwd/mine.ply", "--size", "320x240", "--frames", "2"};
     const std::string expected = render_here(arguments + Arguments{"--single"});

@@ -1,5 +1,4 @@
-// The simulator as somebody uses it: what it prints, writes and refuses, and that a sweep survives being
-// killed.
+// The simulator as somebody uses it: its output, files and errors, and that a sweep survives being killed.
 #include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -35,7 +34,7 @@ class Simulator : public EndToEnd {
     }
 };
 
-// Nothing is written but that line.
+// Expects that one line, and nothing else.
 void expect_one_line(const Finished& finished, int exit_code, const Arguments& words) {
     expect_one_error(finished, exit_code, words);
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;

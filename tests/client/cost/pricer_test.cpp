@@ -5,8 +5,8 @@
 namespace swath {
 namespace {
 
-// Round numbers: an operation on a buffer takes 100 s, a pixel of colour 1 s to read and 2 s to write, of
-// depth twice that; a polygon 3 s, of the display's pixels 5 s each.
+// Round numbers: an operation on a buffer takes 100 s; a pixel of colour takes 1 s to read and 2 s to write,
+// of depth twice that; a polygon takes 3 s, a pixel of the display 5 s.
 Hardware slow(Compositing compositing) {
     Hardware hardware;
     hardware.server.compositing = compositing;

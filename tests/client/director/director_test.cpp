@@ -90,7 +90,7 @@ TEST(Director, EndsTheRunOnceWhenSomeoneIsLost) {
     EXPECT_EQ(director.on_lost("server 1 at host:1", "silent for 1.8 s"),
               (Actions{{Kind::kAbort, 0, "server 1 at host:1: silent for 1.8 s"}}));
     EXPECT_EQ(director.on_lost("server 2 at host:2", "closed the connection"), (Actions{}));
-    // What still comes in changes nothing.
+    // Later reports change nothing.
     EXPECT_EQ(good(director.on_server_report(0)), (Actions{}));
     EXPECT_EQ(good(director.on_display_report(0)), (Actions{}));
 }
@@ -109,7 +109,7 @@ TEST(LiveDirector, BeginsAFrameWhenOneIsWantedAndOnlyThen) {
     EXPECT_EQ(director.on_start(), (Actions{issue(0)}));
     director.on_issued(0, 0);
     EXPECT_EQ(director.on_wanted(false), (Actions{}));
-    EXPECT_EQ(good(director.on_display_report(0)), (Actions{}));  // and no end
+    EXPECT_EQ(good(director.on_display_report(0)), (Actions{}));  // and the run has no end
     EXPECT_EQ(director.on_wanted(true), (Actions{issue(1)}));
 }
 

@@ -18,7 +18,7 @@ class WishTest : public testing::Test {
         EXPECT_TRUE(refused.has_value()) << refused.error().message;
         return refused.value_or(Refusals{});
     }
-    // The reason against this one field; the wish is unchanged but for its sender.
+    // The reason to refuse this one field. Expects that the wish is unchanged but for its sender.
     std::string refusal(const std::string& field, const std::string& value) {
         LiveWish before = wish_;
         const Refusals refused = apply("{\"" + field + "\":" + value + "}");

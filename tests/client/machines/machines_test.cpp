@@ -13,11 +13,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// Machines in this process, with a display and servers that do as a test says. Servers are read from a file.
+// Machines in this process, with a display and servers that the test plays. Servers are read from a file.
 class MachinesTest : public testing::Test {
   protected:
     ~MachinesTest() override { stop(); }
-    // Connections let go of the machines that they belong to when the loop runs once more.
+    // Connections release the machines that own them when the loop runs once more.
     void stop() {
         if (!machines_) return;
         machines_->stop();
@@ -70,7 +70,7 @@ class MachinesTest : public testing::Test {
         EXPECT_EQ(display_->expect<DisplaySetup>().session, 42u);
         display_->send(Ready{0, 0, "a page"});
     }
-    // One that has come as far as Ready.
+    // A server that has come as far as Ready.
     std::unique_ptr<Peer> ready(Door& door, std::size_t id) {
         auto server = std::make_unique<Peer>(loop_, door.next(), hello_of(Role::kServer));
         const auto setup = server->expect<ServerSetup>();
@@ -88,7 +88,7 @@ class MachinesTest : public testing::Test {
         });
         return server;
     }
-    // Its display and one server.
+    // Starts the machines with a display and one server.
     void run() {
         list({address(one_)});
         start();
@@ -96,7 +96,7 @@ class MachinesTest : public testing::Test {
         first_ = member(one_, 0);
         EXPECT_EQ(said(), "started a page");
     }
-    // The oldest line of the log.
+    // Takes the oldest line of the log.
     std::string said() {
         if (!loop_.run_until([&] { return !log_.empty(); })) return {};
         std::string line = log_.front();
@@ -179,7 +179,7 @@ TEST_F(MachinesTest, TakeNewcomersAndLetThemGo) {
     machines_->on_over({server_id(0), server_id(1)});
     EXPECT_EQ(first_->ending(), "");  // a Bye
 
-    // It is back soon while it is on the list.
+    // It is back soon, because it is still on the list.
     const auto back = member(one_, 0);
     EXPECT_EQ(said(), "2 members");
     list({address(two_)});  // struck off
@@ -277,7 +277,7 @@ TEST_F(MachinesTest, GoOnWithoutANewcomerThatMembersLose) {
     newcomer->ending();
     const auto again = ready(two_, 1);
     again->expect<Connect>();
-    again->send(Lost{server_id(0), "reset"});  // it lacks a link itself
+    again->send(Lost{server_id(0), "reset"});  // its link to another server is gone
     EXPECT_EQ(again->ending(), "lost server 0: reset");
     member(two_, 1);
     EXPECT_EQ(said(), "2 members");
@@ -325,7 +325,7 @@ TEST_F(MachinesTest, ChangeTogetherOrNotAtAll) {
 
     change(deeper, 9);
     first_->send(Ready{9, 100, "EGL"});
-    second->send(Leave{});  // it is let go when everybody has changed
+    second->send(Leave{});  // it is released when all have changed
     EXPECT_EQ(said(), "1 members");
     second->send(Ready{9, 100, "EGL"});
     EXPECT_EQ(said(), "changed: ");

@@ -88,7 +88,7 @@ TEST_F(RosterTest, LetsGoOfAServerWhenItsFramesAreOver) {
     roster_.on_over({stays, leaves});
     EXPECT_THAT(roster_.released(), ElementsAre(leaves));
     EXPECT_TRUE(roster_.has_open_frames(stays) == false);
-    // Nobody is linked to it any more.
+    // No newcomer is linked to it any more.
     const ServerId newcomer = ready();
     EXPECT_THAT(batch(), ElementsAre(testing::Pair(index(newcomer), ElementsAre(stays))));
 }

@@ -31,7 +31,8 @@ TEST(Hybrid, DividesTheScreenBetweenTwoServersAsInThePaper) {
 }
 
 // One server left, two right. Left takes 0 (30 triangles for one server); right takes 2 (15 a server) and 1
-// (30 a server). Cut (30 + 25) / 2, rounded up. What is right of it is 72 by 80: across y, at (40 + 35) / 2.
+// (30 a server). The cut is (30 + 25) / 2, rounded up. The rest right of it is 72 by 80, so it is cut across
+// y, at (40 + 35) / 2.
 TEST(Hybrid, DividesTheScreenAmongThreeServersAlongTheLongerSideOfEachRegion) {
     const FramePlan plan = partition(
         {seen({0, 0, 30, 80}, 30), seen({25, 0, 100, 40}, 30), seen({25, 35, 100, 80}, 30)}, 100, 80, 3);
@@ -77,8 +78,8 @@ TEST(Hybrid, GivesObjectsAtTheSamePlaceToEachServerAsARunOfIds) {
     }
 }
 
-// Counting (many objects on few pixels) and comparing (few on many) must give the same order: a scene of
-// 4 objects, and the same with every one 100 times over and a hundredth as heavy.
+// Counting (many objects on few pixels) and comparing (few on many) must give the same order: tries a scene
+// of 4 objects, and the same with each object 100 times and a hundredth as heavy.
 TEST(Hybrid, CutsTheSameWhetherObjectsAreFewOrMany) {
     const std::vector<ProjectedObject> few{seen({0, 0, 300, 90}, 100), seen({250, 0, 500, 90}, 100),
                                            seen({480, 0, 700, 90}, 100), seen({650, 0, 990, 90}, 100)};
@@ -92,7 +93,7 @@ TEST(Hybrid, CutsTheSameWhetherObjectsAreFewOrMany) {
     }
 }
 
-// Section 6 of the paper: what servers exchange shrinks with the size of the objects.
+// Section 6 of the paper: servers exchange less if objects are smaller.
 TEST(Hybrid, ExchangesNarrowSwaths) {
     const auto grid_of = [](int step) {
         std::vector<ProjectedObject> grid;
@@ -113,13 +114,13 @@ TEST(Hybrid, ExchangesNarrowSwaths) {
     EXPECT_LT(fine, 0.5 * coarse);
 }
 
-// Section 6 of the paper in numbers. Its equations are lost in our copy of the text; derived again from what
-// it says: M equal squares of edge B lie evenly on P pixels, N servers have square tiles of edge s =
-// sqrt(P/N). A swath is as wide as a box, B, and we cut in its middle, so a server's group reaches B/2 beyond
-// its tile: four rectangles of B/2 by s along the sides and four corner squares of edge B/2,
+// Section 6 of the paper in numbers. Its equations are lost in our copy of the text; this derives them again.
+// M equal squares of edge B lie evenly on P pixels, N servers have square tiles of edge s = sqrt(P/N). A
+// swath is as wide as a box, B, and we cut in its middle, so a server's group reaches B/2 beyond its tile:
+// four rectangles of B/2 by s along the sides and four corner squares of edge B/2, that is
 //     4 s B/2 + 4 (B/2)^2 = 2 B sqrt(P/N) + B^2 pixels
-// that one server sends in a frame. This reading knows no border of the screen, where nothing is sent, so it
-// is held against the servers whose tiles do not touch it.
+// that one server sends in a frame. This leaves out that nothing is sent at the border of the screen, so only
+// servers whose tiles do not touch it count.
 TEST(Hybrid, SendsAsManyPixelsAsThePaperSaysOnAverage) {
     constexpr int kEdge = 1024;
     std::mt19937 random(6);

@@ -14,8 +14,8 @@ FramePlan partition(const std::vector<ProjectedObject>& objects, int width, int 
     return test::partition<KdSplit>(objects, width, height, servers);
 }
 
-// Left of a cut in 36..39 lie 0, 1 and 2, right of it 1, 2 and 3. Of the four, 39 is nearest to the middle of
-// the region, [0,95).
+// 0, 1 and 2 lie left of a cut in 36..39, and 1, 2 and 3 right of it. Of the four cuts, 39 is nearest to the
+// middle of the region, [0,95).
 TEST(KdSplit, CountsObjectsThatCrossTheCutOnBothSides) {
     const FramePlan plan = partition({seen({0, 5, 20, 45}, 10), seen({15, 0, 40, 50}, 10),
                                       seen({35, 0, 60, 50}, 10), seen({70, 9, 95, 11}, 10)},
@@ -37,7 +37,8 @@ TEST(KdSplit, GivesASideWorkInProportionToItsServers) {
     }
 }
 
-// 30 are left of any cut but those up to 10, 10 right of any but those below 20: 10 | 40 or 30 | 10.
+// 30 are left of every cut but those up to 10, and 10 right of every cut but those below 20: 10 | 40 or 30 |
+// 10.
 TEST(KdSplit, TakesTheClosestWhenNoCutIsEqual) {
     const FramePlan plan =
         partition({seen({0, 0, 20, 9}, 10), seen({10, 0, 20, 9}, 20), seen({20, 0, 40, 9}, 10)}, 40, 9, 2);
@@ -46,14 +47,15 @@ TEST(KdSplit, TakesTheClosestWhenNoCutIsEqual) {
 }
 
 TEST(KdSplit, TakesOfEqualCutsTheOneNearestToTheServersProportion) {
-    // Anywhere between the two: the middle, or with one server of three on the left a third.
+    // Any cut between the two is as close: takes the middle, or a third if one server of three is on the
+    // left.
     const std::vector<ProjectedObject> far_apart{seen({0, 0, 9, 9}, 5), seen({81, 0, 90, 9}, 5)};
     EXPECT_EQ(partition(far_apart, 90, 9, 2).servers[0].tile, (Region{{0, 0, 45, 9}}));
     const FramePlan plan = partition({seen({0, 0, 90, 40}, 7)}, 90, 40, 3);
     for (int s = 0; s < 3; ++s)
         EXPECT_EQ(plan.servers[static_cast<std::size_t>(s)],
                   (ServerShare{{0}, {{30 * s, 0, 30 * s + 30, 40}}, {30 * s, 0, 30 * s + 30, 40}}));
-    // From 10 to 20: 20 is the nearest to 50.
+    // Of the cuts from 10 to 20, 20 is nearest to 50.
     const std::vector<ProjectedObject> uneven{seen({0, 0, 10, 9}, 5), seen({20, 0, 100, 9}, 5)};
     EXPECT_EQ(partition(uneven, 100, 9, 2).servers[0].tile, (Region{{0, 0, 20, 9}}));
 }

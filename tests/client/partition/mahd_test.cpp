@@ -35,7 +35,7 @@ TEST(Mahd, MakesTheLargerLoadPerServerSmallest) {
     EXPECT_EQ(plan.servers[0].tile, (Region{{0, 0, 48, 16}}));
 }
 
-// No load between the two: any line from 16 to 96 is as good.
+// There is no load between the two: all lines from 16 to 96 are equally good.
 TEST(Mahd, TakesTheLowestOfLinesThatAreEquallyGood) {
     const FramePlan plan = partition({seen({0, 0, 9, 9}, 5), seen({97, 0, 99, 9}, 5)}, 128, 32, 2);
     EXPECT_EQ(plan.servers[0].tile, (Region{{0, 0, 16, 32}}));
@@ -48,8 +48,8 @@ TEST(Mahd, CutsTheBoundsOfItsTouchedCellsButTilesTheWholeScreen) {
     EXPECT_EQ(plan.servers[1], (ServerShare{{1}, {{0, 48, 400, 100}}, {40, 50, 50, 95}}));
 }
 
-// Three cells by two, 100 in each, the right ones 8 pixels wide. After the first cut [16,40)x[0,32) is square
-// in cells, but upright in pixels.
+// Three cells by two, 100 in each; the right ones are 8 pixels wide. After the first cut [16,40)x[0,32) is
+// square in cells, but upright in pixels.
 TEST(Mahd, MeasuresCellsAtTheScreensEdgeInPixels) {
     const FramePlan plan = partition({seen({0, 0, 40, 32}, 600)}, 40, 32, 4);
     EXPECT_EQ(plan.servers[0].tile, (Region{{0, 0, 16, 16}}));
@@ -72,13 +72,14 @@ TEST(Mahd, LetsObjectsWithoutWorkDecideNothing) {
     EXPECT_EQ(plan.servers[1], (ServerShare{{2, 3}, {{96, 0, 256, 32}}, {96, 0, 128, 16}}));
 }
 
-// 2^31 triangles spread over 1,200 cells next to single ones: shares are not lost to rounding.
+// 2^31 triangles over 1,200 cells next to single ones: rounding loses no shares.
 TEST(Mahd, WeighsTheLargestAndTheSmallestObjectsExactly) {
     std::vector<ProjectedObject> objects{seen({0, 0, 640, 480}, 1u << 31), seen({0, 0, 640, 480}, 1u << 31)};
     for (int x = 0; x < 640; x += 16) objects.push_back(seen({x, 0, x + 16, 480}, 1));
     EXPECT_EQ(partition(objects, 640, 480, 2).servers[0].tile, (Region{{0, 0, 320, 480}}));
     objects.push_back(seen({320, 0, 640, 480}, 1u << 31));
-    // In 2^31 triangles, c >= 20 of the 40 columns hold 2 c / 40 + (c - 20) / 20: half of 3 when c = 25.
+    // In units of 2^31 triangles, c >= 20 of the 40 columns hold 2 c / 40 + (c - 20) / 20: half of 3 when c =
+    // 25.
     EXPECT_EQ(partition(objects, 640, 480, 2).servers[0].tile, (Region{{0, 0, 400, 480}}));
 }
 

@@ -19,13 +19,13 @@ class ObjectCostsTest : public testing::Test {
         return made;
     }
     Costs costs() const { return {costs_.costs().begin(), costs_.costs().end()}; }
-    // The groups of servers 0, 1 and so on.
+    // Issues a frame with the groups of servers 0, 1 and so on.
     void issue(FrameNumber frame, const std::vector<Group>& groups) {
         std::map<ServerId, Group> by_server;
         for (std::size_t i = 0; i < groups.size(); ++i) by_server[server_id(i)] = groups[i];
         costs_.on_issued(frame, std::move(by_server));
     }
-    // "" if it is taken.
+    // "" if it is accepted.
     std::string report(FrameNumber frame, std::size_t server, const Costs& visible) {
         const Status status = costs_.on_report(frame, server_id(server), visible);
         return status ? "" : status.error().message;

@@ -14,7 +14,7 @@ using test::front_view;
 using test::input_of;
 using testing::HasSubstr;
 
-// What every share must be, of a plan that passes problem().
+// Expects of every share what the partitioners promise besides problem().
 void expect_sound(const FramePlan& plan, const std::vector<ProjectedObject>& objects, Grouping grouping) {
     const bool sort_first = grouping == Grouping::kAtLeastOnce;
     for (const ServerShare& share : plan.servers) {
@@ -68,7 +68,7 @@ TEST_P(EveryPartitioner, MakesAValidPlanOfAnySceneForAnyServersOnAnyScreen) {
     }
 }
 
-// Boxes anywhere on screens of any shape, one scene for every number of servers that there can be.
+// Boxes anywhere on screens of any shape, one scene for every possible number of servers.
 TEST_P(EveryPartitioner, MakesAValidPlanForEveryNumberOfServers) {
     std::mt19937 random(2000);
     const auto below = [&](int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); };
@@ -134,7 +134,7 @@ TEST_P(EveryPartitioner, BalancesManyEqualObjects) {
     const View view = front_view(1280, 960);
     const std::vector<ProjectedObject> objects = project(grid, view);
     const auto partitioner = make_partitioner(GetParam(), grid);
-    // Objects on several tiles count on each; MAHD cuts where its mesh has lines and nowhere else.
+    // Sort-first counts an object on several tiles on each; MAHD cuts only along lines of its mesh.
     const bool sort_first = grouping_of(GetParam()) == Grouping::kAtLeastOnce;
     const double limit = GetParam() == Algorithm::kMahd ? 0.1 : sort_first ? 0.05 : 0.03;
     double last_overlap = 1;

@@ -28,7 +28,7 @@ struct Scene {
     std::vector<Object> objects;
 };
 
-// Objects that a partitioner could trip over, as front_view() sees them.
+// Difficult objects for a partitioner, as front_view() sees them.
 inline std::vector<Scene> awkward_scenes() {
     std::mt19937 random(11);
     const auto uniform = [&](float low, float high) {
@@ -73,7 +73,7 @@ inline PartitionInput input_of(const std::vector<ProjectedObject>& objects, cons
 inline ProjectedObject seen(const Rect& box, std::uint64_t work) { return {box, work, true}; }
 inline ProjectedObject unseen(int x, int y) { return {{x, y, x + 1, y + 1}, 0, false}; }
 
-// A plan by a partitioner that looks at the screen alone.
+// A plan by a partitioner that looks only at the screen.
 template <class P>
 FramePlan partition(const std::vector<ProjectedObject>& objects, int width, int height, std::size_t servers) {
     View view;
@@ -99,7 +99,7 @@ inline double imbalance(const FramePlan& plan, const std::vector<ProjectedObject
     return largest * static_cast<double>(plan.servers.size()) / sum - 1;
 }
 
-// The work of all servers over the work that there is.
+// The work of all servers over the work of all objects.
 inline double overlap(const FramePlan& plan, const std::vector<ProjectedObject>& objects) {
     double done = 0;
     double all = 0;

@@ -32,7 +32,7 @@ TEST(SortLast, KeepsItsGroupsWhateverTheView) {
     EXPECT_NE(front.servers[0].content, side.servers[0].content);
 }
 
-// Along z, the longest side, where the screen shows nothing of it: 0 and 1 lie in front of 2 and 3.
+// Divides along z, the longest side, which the screen does not show: 0 and 1 lie in front of 2 and 3.
 TEST(SortLast, DividesInModelSpaceAlongTheLongestSide) {
     const std::vector<Object> objects{cube({0, 0, 3}, 0.1f, 10), cube({0.2f, 0, -9}, 0.1f, 10),
                                       cube({0, 0.2f, -3}, 0.1f, 10), cube({0, 0, 1}, 0.1f, 10)};

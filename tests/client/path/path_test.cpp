@@ -30,7 +30,7 @@ std::string error_of(const std::string& spec, const PathOptions& options = {}) {
     return made ? "no error" : made.error().message;
 }
 
-// Clip coordinates of the box's corners, over w.
+// The box's corners in clip space, divided by w.
 std::vector<glm::vec3> corners(const Camera& camera, const Box& box, int width, int height) {
     const View view = make_view(camera, width, height);
     std::vector<glm::vec3> all;
@@ -42,7 +42,7 @@ std::vector<glm::vec3> corners(const Camera& camera, const Box& box, int width, 
     return all;
 }
 
-// A file that goes away with the test.
+// A file that is removed with the test.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const std::string& text)

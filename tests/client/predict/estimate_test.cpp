@@ -29,7 +29,7 @@ TEST(RecentMedian, OfEvenlyManyIsTheLowerMiddle) {
     EXPECT_EQ(median.median(), 2);
 }
 
-// `each_s` a unit and `fixed_s`, with every tenth measurement spoilt.
+// Adds times of `each_s` a unit and `fixed_s`; every tenth one is spoilt.
 void feed(RecentLine& line, double amount, double fixed_s, double each_s) {
     for (int i = 0; i < 20; ++i)
         line.add(amount * (1 + 0.001 * i), i % 10 == 3 ? 100 : fixed_s + each_s * amount * (1 + 0.001 * i));
@@ -51,7 +51,7 @@ TEST(RecentLine, TellsThePartsByFramesThatDiffer) {
     feed(line, 1000, 5, 0.01);
     EXPECT_NEAR(line.line()->fixed_s, 5, 0.05);
     EXPECT_NEAR(line.line()->each_s, 0.01, 1e-4);
-    // And remembers them.
+    // The line remembers it.
     for (int i = 0; i < 50; ++i) feed(line, 1000, 5, 0.01);
     EXPECT_NEAR(line.line()->fixed_s, 5, 0.05);
 }

@@ -101,7 +101,7 @@ struct Quarters {
     }
 };
 
-// Of machines that take a ms a triangle and nothing else to speak of.
+// The rates of machines that take a ms a triangle and almost nothing else.
 Rates drawing_rates() {
     FramePlan plan;
     plan.view = test::front_view();

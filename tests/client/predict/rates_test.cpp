@@ -17,7 +17,7 @@ FramePlan plan() {
     return plan;
 }
 
-// What it takes on machines that draw 2 triangles a ms.
+// A frame of that plan on machines that draw 2 triangles a ms.
 FrameTimeline timeline() {
     FrameTimeline timeline =
         frame(0, {machine("client", {span(Phase::kPartition, 0, 3)}),

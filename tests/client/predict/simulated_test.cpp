@@ -1,5 +1,5 @@
-// Simulated machines of known hardware: the rates that their frames teach are its own, and what is predicted
-// from rates is what the simulation takes.
+// Simulated machines of known hardware: their frames teach the hardware's own rates, and a prediction from
+// these rates agrees with the simulation.
 #include <gtest/gtest.h>
 
 #include "client/cost/frame_work.h"
@@ -20,7 +20,7 @@ const ObjectSet& knot() {
     return model;
 }
 
-// What each frame was decided from and what came of it.
+// The input and the result of each frame.
 struct Run {
     Algorithm algorithm;
     std::vector<std::vector<ProjectedObject>> objects;
@@ -28,7 +28,7 @@ struct Run {
     std::vector<FrameTimeline> timelines;
 };
 
-// With what servers count, which simulated ones do not.
+// Adds the counters of servers, which simulated ones do not have.
 Run simulated(const Hardware& hardware, Algorithm algorithm, std::size_t servers, std::uint64_t seed) {
     PathOptions options;
     options.frames = 6;
@@ -63,7 +63,7 @@ Run simulated(const Hardware& hardware, Algorithm algorithm, std::size_t servers
     return run;
 }
 
-// Ours of 2026, with what profiles leave out, and without what is not learned apart.
+// gbe-2026 with values that profiles leave out, and without parts that are not learned apart.
 Hardware known() {
     Hardware hardware = *sim::find_hardware("gbe-2026");
     hardware.server.polygon_s = 2e-6;
@@ -147,7 +147,7 @@ TEST_P(Algorithms, ArePredictedAsTheyAreSimulated) {
     }
 }
 
-// With other cameras and another number of servers.
+// Predicts other cameras and another number of servers.
 TEST_P(Algorithms, ArePredictedFromWhatTheHybridTaught) {
     Rates rates;
     teach(rates, simulated(known(), Algorithm::kHybrid, 2, 1));

@@ -9,7 +9,7 @@
 namespace swath {
 namespace {
 
-// The tests read only bytes that they wrote: what resize adds may hold anything.
+// The tests read only bytes that they wrote: resize leaves new bytes undefined.
 void fill(Buffer& buffer) { std::iota(buffer.data(), buffer.data() + buffer.size(), std::uint8_t{1}); }
 
 std::string_view text(const Buffer& buffer) {

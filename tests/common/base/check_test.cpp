@@ -13,7 +13,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// What a failing CHECK says, or nothing.
+// The message of a failing CHECK, or nothing.
 template <class Code>
 std::string complaint(Code&& code) {
     try {

@@ -19,7 +19,7 @@ TEST(SteadyClock, CountsTheThreadsOwnWork) {
     const SteadyClock clock;
     const Nanoseconds before = clock.thread_cpu();
     Nanoseconds after = before;
-    // Ends as soon as the clock has seen any of the work that asking it is.
+    // To ask the clock is work: ends as soon as the clock has seen some of it.
     while (after == before) after = clock.thread_cpu();
     EXPECT_GT(after, before);
 }

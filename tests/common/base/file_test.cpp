@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// A folder of the test's own, gone afterwards.
+// Each test has a folder, which is removed at its end.
 class File : public testing::Test {
   protected:
     File() {

@@ -20,7 +20,7 @@ class FakeClock final : public Clock {
 
 class SharingTest : public testing::Test {
   protected:
-    // Frames of a millisecond's work; returns in how many of them the team took part.
+    // Plays frames of a millisecond's work, and counts those in which the team took part.
     int shared_in(int frames, Nanoseconds alone, Nanoseconds shared) {
         int count = 0;
         for (int i = 0; i < frames; ++i) {

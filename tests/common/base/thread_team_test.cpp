@@ -91,7 +91,7 @@ TEST(ThreadTeam, LetsTheCallerDoWhatNobodyHasBegun) {
     std::atomic<int> by_caller{0};
     for (int round = 0; round < 100; ++round)
         team.run([&](std::size_t) { by_caller += std::this_thread::get_id() == caller; });
-    // Member 0's own task, and at least some of the others': 63 threads do not wake in the time of one task.
+    // Member 0's own task and some of the others': 63 threads do not wake in the time of one task.
     EXPECT_GT(by_caller, 100);
 }
 

@@ -18,7 +18,7 @@ inline ObjectSet soup(std::uint32_t seed, const glm::vec3& offset = {}, std::uin
     return build_objects(std::move(mesh), {.depth = depth, .leaf_triangles = leaf_triangles});
 }
 
-// The same at pose 0, which everything leaves for somewhere else in it or around it.
+// The same at pose 0; at pose 1 every vertex is somewhere else in or around the model.
 inline ObjectSet moving_soup(std::uint32_t seed, const glm::vec3& offset = {},
                              std::uint32_t leaf_triangles = 8) {
     ObjectSet still = soup(seed, offset, leaf_triangles);
@@ -40,7 +40,7 @@ inline std::vector<ObjectId> all_ids(const ObjectSet& scene) {
     return ids;
 }
 
-// Cameras in, at and around the model, of all angles of view, sometimes with the eye on a surface.
+// Cameras in, at and around the model, with any angle of view, sometimes with the eye on a surface.
 class RandomViews {
   public:
     explicit RandomViews(std::uint32_t seed) : random_(seed) {}
@@ -67,7 +67,7 @@ class RandomViews {
         camera.far = size * number(0.2f, 4);
         return make_view(camera, 1 + static_cast<int>(below(300)), 1 + static_cast<int>(below(200)));
     }
-    // At a pose.
+    // A view at some pose.
     View posed_view(const ObjectSet& scene) {
         View made = view(scene);
         made.pose = below(5) == 0 ? static_cast<float>(below(2)) : number(0, 1);

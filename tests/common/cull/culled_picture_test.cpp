@@ -5,7 +5,7 @@
 #include "tests/common/cull/cull_scenes.h"
 #include "tests/support/drawings.h"
 
-// Culling for a rectangle changes no bit of it: colour, depth or id.
+// Culling for a rectangle changes no bit of its colour, depth or ids.
 
 namespace swath {
 namespace {

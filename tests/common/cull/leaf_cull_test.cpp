@@ -29,7 +29,7 @@ class LeafCullTest : public testing::Test {
             if (random.below(3) != 0) group.push_back(id);
         return group;
     }
-    // What a loop over the group's leaves would draw.
+    // The triangles that a loop over the group's leaves would draw.
     std::vector<bool> not_outside(std::span<const ObjectId> group, const View& view, const Rect& rect) const {
         return not_outside(scene_, group, view, rect);
     }
@@ -83,7 +83,7 @@ TEST_F(LeafCullTest, DrawsThoseOfAMovingModelAtEveryPoseInAnyOrder) {
         LeafCull cull(algorithm, moving, team_);
         RandomViews random(10);
         std::size_t partly = 0;
-        std::size_t elsewhere = 0;  // frames in which the boxes of pose 0 would have been wrong
+        std::size_t elsewhere = 0;  // frames for which the boxes of pose 0 would be wrong
         View view = random.posed_view(moving);
         for (int round = 0; round < 90; ++round) {
             const float pose = view.pose;
@@ -232,11 +232,11 @@ TEST_F(LeafCullTest, DrawsNothingOfAnEmptyGroupOrForNoPixels) {
         CheckFailed);
 }
 
-// --- what is dropped covers no pixel
+// Dropped leaves cover no pixel.
 
 using Polygon = std::vector<glm::dvec4>;
 
-// What of a polygon in clip space is on the inner side of dot(plane, point) >= 0.
+// The part of a polygon in clip space where dot(plane, point) >= 0.
 Polygon clip(const Polygon& polygon, const glm::dvec4& plane) {
     Polygon inside;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -250,7 +250,7 @@ Polygon clip(const Polygon& polygon, const glm::dvec4& plane) {
     return inside;
 }
 
-// Whether a part of the triangle shows in the rectangle, all in double.
+// True if a part of the triangle shows in the rectangle; computes in double.
 bool shows(const ObjectSet& scene, std::size_t triangle, const View& view, const Rect& rect) {
     Polygon polygon;
     for (std::size_t c = 0; c < 3; ++c)
@@ -271,7 +271,7 @@ TEST(LeafCullProperty, NoTriangleThatShowsInTheRectangleIsEverDropped) {
     ThreadTeam team(1, clock);
     std::size_t dropped = 0;
     std::size_t shown = 0;
-    // Far from the origin single precision has fewer digits left for the model.
+    // Far from the origin single precision has fewer digits for the model.
     for (const glm::vec3& offset : {glm::vec3(0), glm::vec3(-300, 40, 1000), glm::vec3(3e4f, 1e5f, -2e4f)})
         for (const bool moves : {false, true}) {
             const ObjectSet scene = moves ? test::moving_soup(11, offset, 3) : test::soup(11, offset, 3);
@@ -300,8 +300,8 @@ TEST(LeafCullProperty, NoTriangleThatShowsInTheRectangleIsEverDropped) {
     EXPECT_GT(shown, 10'000u);
 }
 
-// The bounds that partitioners give servers are safe in the same sense, so a leaf that lies within a
-// rectangle by its bounds is never dropped for it.
+// The bounds that partitioners give servers are as safe: a leaf whose bounds lie in a rectangle is never
+// dropped for that rectangle.
 TEST(LeafCullProperty, NoLeafIsDroppedForItsOwnScreenBounds) {
     for (const glm::vec3& offset : {glm::vec3(0), glm::vec3(3e4f, 1e5f, -2e4f)}) {
         const ObjectSet scene = test::soup(12, offset);

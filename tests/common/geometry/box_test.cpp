@@ -36,7 +36,7 @@ class RandomPoints {
         for (int i = 0; i < 20; ++i) {
             at_.push_back(wild ? vector(true) : home + scale * vector(false));
             motion_.push_back(wild ? vector(true) : scale * vector(false));
-            // Some come out near the origin, where all digits cancel.
+            // Some end near the origin, where all digits cancel.
             if (i % 5 == 4) motion_.back() = -at_.back() * (1 + 1e-7f * unit());
             start_.extend(at_.back());
             end_.extend(at_.back() + motion_.back());

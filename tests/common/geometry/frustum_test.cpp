@@ -27,7 +27,7 @@ class Scene {
         return make_view(camera, static_cast<int>(random_() % 2000) + 1,
                          static_cast<int>(random_() % 2000) + 1);
     }
-    // Every other one near or around the last view's eye; some flat.
+    // Every other box is near or around the last view's eye; some are flat.
     Box box() {
         Box box;
         const glm::vec3 middle = random_() % 2 == 0 ? point(4) : eye_ + point(0.5f);
@@ -39,7 +39,7 @@ class Scene {
     glm::vec3 in(const Box& box) {
         glm::vec3 p;
         for (int axis = 0; axis < 3; ++axis) {
-            // Corners, edges and faces are where bounds go wrong.
+            // Bounds go wrong at corners, edges and faces.
             const auto where = random_() % 4;
             p[axis] = where == 0   ? box.min[axis]
                       : where == 1 ? box.max[axis]
@@ -51,7 +51,7 @@ class Scene {
 
   private:
     std::mt19937 random_;
-    glm::vec3 eye_{0};  // of the last view
+    glm::vec3 eye_{0};  // the last view's
 };
 
 template <class Vec4>
@@ -84,15 +84,15 @@ TEST(ScreenBounds, ContainThePixelOfEveryVisiblePointOfTheBox) {
     EXPECT_GT(crossing, 10'000);
 }
 
-// As a renderer computes it, in single precision: a point that reaches past the bounds by half a pixel could
-// cover the next pixel's centre.
+// A renderer computes in single precision. A point that reaches past the bounds by half a pixel could cover
+// the next pixel's centre.
 TEST(ScreenBounds, StayWithinHalfAPixelOfSinglePrecisionPoints) {
     Scene scene(8);
     int seen = 0;
     for (int round = 0; round < 30'000; ++round) {
         View view = scene.view();
         glm::vec3 offset(0);
-        if (round % 2 == 1) {  // far from the origin single precision loses much
+        if (round % 2 == 1) {  // far from the origin single precision loses many digits
             offset = scene.point(300);
             Camera camera;
             camera.target = offset;
@@ -142,7 +142,7 @@ TEST(ScreenBounds, AreThoseOfTheCornersForEveryBoxOfAView) {
                 high = glm::max(high, at);
                 nearest = std::min({nearest, c.w, c.z + c.w});
             }
-            // Close to the eye there are margins.
+            // Margins are larger close to the eye.
             if (nearest < 0.1 || low.x < 1 || low.y < 1 || high.x > view.width - 1 ||
                 high.y > view.height - 1 || found.empty())
                 continue;

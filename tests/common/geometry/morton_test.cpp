@@ -27,7 +27,7 @@ TEST(MortonCode, InterleavesTheBitsOfTheCellWithXLowest) {
 TEST(MortonOrder, IsAPermutationByCodeAndThenByPlace) {
     std::mt19937 random(3);
     std::vector<Box> boxes;
-    // Few places, so that many share a code.
+    // Few positions, so that many share a code.
     const auto number = [&] { return static_cast<float>(random() % 5); };
     for (int i = 0; i < 3000; ++i) {
         const float x = number();

@@ -6,7 +6,7 @@
 
 #include "tests/common/image/frames.h"
 
-// What a peer sends as pixels may be anything: it is refused with a line that says why, or it is pixels.
+// Pixels from a peer may be any bytes: they are refused with a line that says why, or they are pixels.
 
 namespace swath {
 namespace {
@@ -53,7 +53,8 @@ class Body {
         return *this;
     }
 
-    // The error's line; empty for success. The region: two rows of four pixels.
+    // Composites the body; returns the error, or "" for success. The default region has two rows of four
+    // pixels.
     std::string composited(const Region& region = {{2, 1, 6, 3}}) const {
         Buffer body;
         const std::vector<std::uint8_t> colours(3 * depths_.size(), 77);
@@ -99,7 +100,7 @@ Body with_spans(const std::vector<SpanEntry>& row1, const std::vector<SpanEntry>
 
 TEST(DamagedSwath, IsNotWhatThisTestWritesByHand) {
     EXPECT_EQ(with_spans({{0, 2}}, {{3, 1}}).composited(), "");
-    EXPECT_EQ(with_spans({{0, 1}, {0, 1}}, {{3, 1}}).composited(), "");  // spans that touch are as good
+    EXPECT_EQ(with_spans({{0, 1}, {0, 1}}, {{3, 1}}).composited(), "");  // spans may touch
 }
 
 TEST(DamagedSwath, HasADepthThatIsNone) {
@@ -177,7 +178,7 @@ class DamagedPixels : public testing::Test {
         tile_sizes_ = encode_tile(frame_, region_, tile_);
     }
 
-    // As far as the sizes allow, and whatever comes out: nothing outside of the region changes.
+    // Decodes whatever the sizes say, and expects that nothing outside of the region changes.
     void decode_both(const Buffer& swath, const BodySizes& swath_sizes, const Buffer& tile,
                      const BodySizes& tile_sizes) {
         PixelFrame frame = copy(frame_);
@@ -242,7 +243,7 @@ TEST_F(DamagedPixels, NeverCrashTheirReader) {
         Buffer tile = first(tile_, tile_.size());
         const std::size_t flips = 1 + random_() % 4;
         for (std::size_t i = 0; i < flips; ++i) {
-            // Mostly in the tables: any colour is a colour.
+            // Mostly changes the tables, since any colour is valid.
             const std::size_t at = random_() % 2 == 0 ? random_() % swath.size()
                                                       : swath.size() - 1 - random_() % (swath.size() / 4);
             swath.data()[at] = static_cast<std::uint8_t>(random_());

@@ -9,7 +9,7 @@ namespace swath::test {
 
 inline constexpr ObjectId kObjectLimit = 300;
 
-using Random = std::mt19937;  // its numbers, unlike the distributions', are the standard's
+using Random = std::mt19937;  // its numbers are the same everywhere, unlike those of distributions
 
 inline int below(Random& random, int limit) {
     return static_cast<int>(random() % static_cast<unsigned>(limit));
@@ -41,7 +41,7 @@ inline std::vector<Pixel> pixels(const PixelFrame& frame) {
     return all;
 }
 
-// A frame of runs of active and background pixels. Its few depths make ties; the colour says what was drawn.
+// A frame of runs of active and background pixels. Few depths make ties; the colour names the object.
 // `coverage`: 0 none active, 1 all, 2 runs, 3 noise.
 inline PixelFrame random_frame(const Rect& rect, Random& random, int coverage) {
     static constexpr float kDepths[] = {0.0f, 1e-40f, 0.25f, 0.5f, 0.99999994f};
@@ -60,7 +60,7 @@ inline PixelFrame random_frame(const Rect& rect, Random& random, int coverage) {
             if (random() % 8 == 0) id = static_cast<ObjectId>(random() % kObjectLimit);
             Pixel p{static_cast<std::uint32_t>(random()), kFarDepth, static_cast<ObjectId>(random())};
             if (on) {
-                // What two peers draw of one object at one depth is the same pixel.
+                // Two peers that draw an object at the same depth draw the same pixel.
                 p.depth = kDepths[random() % 5];
                 p.id = id;
                 p.colour = 0xff000000u | static_cast<std::uint32_t>(y * 65536 + x * 512) | (id & 0xff);
@@ -79,7 +79,7 @@ inline PixelFrame copy(const PixelFrame& from) {
     return to;
 }
 
-// Some of the fields of a random grid over `rect`: rectangles that do not overlap, down to a pixel wide.
+// Some of the fields of a random grid over `rect`: disjoint rectangles, down to a pixel wide.
 inline Region random_region(const Rect& rect, Random& random) {
     Region region;
     const int step_x = 1 + below(random, rect.width());
@@ -96,7 +96,7 @@ inline bool inside(const Region& region, int x, int y) {
     return false;
 }
 
-// What merging must do, pixel by pixel.
+// Composites pixel by pixel.
 inline void merge_by_hand(const PixelFrame& from, const Region& region, PixelFrame& to) {
     for (int y = to.rect().y0; y < to.rect().y1; ++y)
         for (int x = to.rect().x0; x < to.rect().x1; ++x) {

@@ -43,7 +43,7 @@ std::vector<std::uint8_t> png_of(const Picture& picture) {
     return {file.bytes().begin(), file.bytes().end()};
 }
 
-// A PNG of one pixel that another program might have written.
+// A PNG of one pixel, in a format of other programs.
 std::vector<std::uint8_t> foreign_png(png_uint_32 format, const std::vector<std::uint8_t>& pixel) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -56,11 +56,11 @@ std::vector<std::uint8_t> foreign_png(png_uint_32 format, const std::vector<std:
     return file;
 }
 
-// The file with a header that lies, its checksum right.
+// The file with wrong sides in its header, and the right checksum.
 std::vector<std::uint8_t> with_announced_sides(std::vector<std::uint8_t> file, std::uint32_t width,
                                                std::uint32_t height) {
-    // 8 bytes signature, 4 length, then what the checksum covers: "IHDR" and 13 bytes that begin with the
-    // sides.
+    // 8 bytes signature, 4 length, then the part that the checksum covers: "IHDR" and 13 bytes that begin
+    // with the sides.
     const auto put = [&](std::size_t at, std::uint32_t value) {
         for (std::size_t i = 0; i < 4; ++i) file[at + i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
     };

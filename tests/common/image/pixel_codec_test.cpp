@@ -67,7 +67,7 @@ TEST_F(WorkedExample, OfATileHasTheseBytes) {
 TEST(Swath, ThatIsCompositedEqualsMergingPixelByPixel) {
     Random random(1);
     for (int round = 0; round < 400; ++round) {
-        // Widths around those that the span search treats together, and a single column.
+        // Widths around the number that the span search treats together, and a single column.
         const int width = 1 + (round % 5 == 0 ? 0 : below(random, 70));
         const Rect rect = random_rect(random, width);
         const PixelFrame theirs = random_frame(rect, random, round % 4);
@@ -122,7 +122,7 @@ TEST(Swath, OfOneObjectSendsItsIdOnce) {
     for (int y = 0; y < 100; ++y)
         for (int x = 0; x < 100; ++x) put(frame, x, y, {0xff000001, 0.5f, 299});
     Buffer body;
-    // 10,000 takes two bytes and 2 * 299 too.
+    // 10,000 takes two bytes, and so does 2 * 299.
     EXPECT_EQ(encode_swath(frame, {frame.rect()}, body).id_bytes, 4u);
 }
 

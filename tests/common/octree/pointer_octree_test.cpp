@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kOrders{AllocationOrder::kDepthFirst, AllocationOrder::kBreadthFirst,
                              AllocationOrder::kRandom};
 
-// In depth-first order.
+// Collects nodes in depth-first order.
 void collect(const OctreeNode& node, std::vector<const OctreeNode*>& nodes) {
     nodes.push_back(&node);
     for (const OctreeNode* child : node.children)

@@ -13,7 +13,7 @@ constexpr double kIntersection = 2;
 
 double cost(const SahTree& tree) { return sah_cost(tree, kTraversal, kIntersection); }
 
-// Around a box of edge 4: areas below are in halves, its own is 48.
+// A tree in a box of edge 4. Areas below are halves; the box's is 48.
 SahTree tree_of(std::vector<SahNode> nodes) { return {{glm::vec3(0), glm::vec3(4)}, std::move(nodes), {}}; }
 
 TEST(SahCost, OfALeafIsThatOfItsTriangles) {
@@ -27,7 +27,7 @@ TEST(SahCost, OfABoxWithoutAreaIsZero) {
 }
 
 TEST(SahCost, OfAKdNodeIsEquationOne) {
-    // 1 by 4 by 4 is 24, 3 by 4 by 4 is 40.
+    // 1 by 4 by 4 has 24, 3 by 4 by 4 has 40.
     const SahTree tree = tree_of({SahNode::inner({1, 0, 0}, 1, 1), SahNode::leaf(0, 5), SahNode::leaf(5, 2)});
     EXPECT_DOUBLE_EQ(cost(tree), 3 + 2 * (5 * 24 + 2 * 40) / 48.0);
 }
@@ -35,7 +35,7 @@ TEST(SahCost, OfAKdNodeIsEquationOne) {
 TEST(SahCost, OfANodeInANodeCountsItsShareOfTheArea) {
     const SahTree tree = tree_of({SahNode::inner({1, 0, 0}, 1, 1), SahNode::leaf(0, 5),
                                   SahNode::inner({0, 0, 2}, 4, 3), SahNode::leaf(5, 2), SahNode::leaf(7, 1)});
-    // 3 by 4 by 2 is 26.
+    // 3 by 4 by 2 has 26.
     EXPECT_DOUBLE_EQ(cost(tree), 3 + (2 * 5 * 24 + 3 * 40 + 2 * (2 + 1) * 26) / 48.0);
 }
 

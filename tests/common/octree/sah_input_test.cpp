@@ -8,7 +8,7 @@
 #include "common/octree/sah/sah_kd_tree.h"
 #include "tests/support/triangles.h"
 
-// What a builder makes of what nobody should give it: an error that says why, and it goes on.
+// A builder that is given bad input returns an error that says why, and stays usable.
 
 namespace swath {
 namespace {
@@ -22,7 +22,7 @@ class SahInput : public testing::Test {
         const auto tree = builder_.build(triangles, settings);
         return tree ? "" : tree.error().message;
     }
-    // Whatever came before.
+    // Whatever came before, it builds a good tree.
     void TearDown() override {
         const auto tree = builder_.build(good_.view(), kDefaultSah);
         ASSERT_TRUE(tree.has_value()) << tree.error().message;
@@ -57,7 +57,7 @@ TEST_F(SahInput, WithACoordinateThatCannotBeIsRefused) {
                     EXPECT_THAT(error_of(triangles.view()), HasSubstr("coordinate")) << bad;
                     EXPECT_FALSE(build_sah_kd_tree(triangles.view(), kDefaultSah).has_value()) << bad;
                 }
-    // One that no triangle uses does not matter.
+    // A vertex that no triangle uses does not matter.
     Triangles triangles = good_;
     triangles.positions.push_back(glm::vec3(kInfinity));
     EXPECT_EQ(error_of(triangles.view()), "");
@@ -133,7 +133,7 @@ TEST_F(SahInput, OfTooManyTrianglesIsRefusedBeforeTheyAreLookedAt) {
     EXPECT_THAT(error_of(triangles), HasSubstr("beyond the limit"));
 }
 
-// However many there are in one place: one leaf, at once.
+// Any number of triangles in one place makes one leaf, at once.
 TEST_F(SahInput, OfTrianglesThatCannotBeToldApartIsALeaf) {
     for (const bool point : {false, true}) {
         Triangles triangles;
@@ -153,7 +153,8 @@ TEST_F(SahInput, OfTrianglesThatCannotBeToldApartIsALeaf) {
     }
 }
 
-// All through one point, so that every plane crosses many: what a bound on duplication is for.
+// All triangles go through one point, so every plane crosses many of them: the bound on duplication is for
+// this.
 TEST_F(SahInput, OfTrianglesThatAllCrossStaysWithinItsDuplication) {
     Triangles star;
     test::Numbers numbers(3);
@@ -187,7 +188,7 @@ TEST_F(SahInput, OfOneOrTwoTrianglesIsBuilt) {
     }
 }
 
-// From nothing to enough: an error that names the limit, or the tree.
+// With a limit from 0 to enough there is an error that names the limit, or the tree.
 TEST_F(SahInput, ThatTakesTooMuchMemoryIsRefused) {
     const Triangles triangles = test::soup(30'000, 0.1f, 4);
     const auto expected = builder_.build(triangles.view(), kDefaultSah);
@@ -211,7 +212,7 @@ TEST_F(SahInput, ThatTakesTooMuchMemoryIsRefused) {
     EXPECT_LT(settings.max_bytes, 30'000u * 2000);
 }
 
-// The limit is of a build: what an earlier one took must not count.
+// The limit is for one build: the memory of an earlier one must not count.
 TEST_F(SahInput, FitsInAsMuchMemoryAfterALargerBuild) {
     SahSettings settings = kDefaultSah;
     settings.max_bytes = 0;

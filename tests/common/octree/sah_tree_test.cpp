@@ -15,7 +15,7 @@ using test::NamedSettings;
 using test::Triangles;
 using test::TriangleSet;
 
-constexpr int kMaxDepth = 64;  // of both builders
+constexpr int kMaxDepth = 64;  // for both builders
 
 SahTree build(SahBuilder& builder, const Triangles& triangles, const SahSettings& settings) {
     auto tree = builder.build(triangles.view(), settings);
@@ -38,14 +38,14 @@ bool same_bytes(const SahTree& a, const SahTree& b) {
            a.triangles == b.triangles;
 }
 
-// Follows triangles' boxes down a tree. `kBelow`: what lies in a plane is below, as SahBuilder has it; else
-// it may be on either side.
+// Follows triangles' boxes down a tree. With `kBelow` a box in a plane is below, as in SahBuilder; else it
+// may be on either side.
 template <bool kBelow>
 struct Follow {
     const SahTree& tree;
     const std::vector<std::vector<std::uint32_t>>& sorted;  // the triangles of each leaf
     std::uint32_t triangle;
-    std::size_t leaves = 0;  // that it has to be in
+    std::size_t leaves = 0;  // in which it must be
 
     bool is_in(std::uint32_t at, const Box& part) {
         const SahNode& node = tree.nodes[at];
@@ -76,8 +76,8 @@ struct Shape {
     int depth = 0;
 };
 
-// Nodes: each reached once, behind its parent, planes inside of its box. Leaves: a part of `triangles` each,
-// no triangle twice, none that is not there.
+// Expects that each node is reached once, behind its parent, with planes inside of its box; that each leaf
+// has its own part of `triangles`, no triangle twice, and only triangles that exist.
 void check_nodes(const SahTree& tree, std::size_t triangles, Shape& shape,
                  std::vector<std::vector<std::uint32_t>>& sorted) {
     struct Visit {
@@ -148,7 +148,7 @@ Shape check(const SahTree& tree, const Triangles& triangles) {
         entries += follow.leaves;
     }
     EXPECT_EQ(missing, 0u);
-    // And in no other leaf.
+    // No other leaf has it.
     if (kBelow) {
         EXPECT_EQ(entries, tree.triangles.size());
     }
@@ -180,7 +180,7 @@ TEST(SahKdTree, IsValidForAnything) {
         }
 }
 
-// What a node's many triangles are counted and moved in: several pieces, several levels.
+// Nodes with so many triangles are counted and moved in several pieces, on several levels.
 TEST(SahBuilder, MakesAValidTreeOfALargeModel) {
     SahBuilder builder(2);
     for (const char* model : {"knot:120000", "town:80000", "spheres:60000"})
@@ -219,8 +219,8 @@ TEST(SahBuilder, MakesTheSameBytesWithAnyNumberOfThreads) {
         }
 }
 
-// Boxes that begin at 0 and at -0, in any order and number: which one the whole box has must not depend on
-// who came first.
+// Boxes begin at 0 and at -0, in any order and number: which of them the whole box has must not depend on the
+// order.
 TEST(SahBuilder, MakesTheSameBytesOfSignedZeros) {
     Triangles triangles;
     test::Numbers numbers(22);
@@ -259,7 +259,7 @@ TEST(SahBuilder, MakesTheSameBytesWhateverItBuiltBefore) {
     }
 }
 
-// As vertices lie in a mesh, with something else between the positions.
+// Positions lie in a mesh's vertices, with other values between them.
 TEST(SahBuilder, ReadsPositionsAtAnyStride) {
     const Triangles triangles = test::soup(3000, 0.1f, 25);
     std::vector<std::array<float, 7>> apart;

@@ -83,7 +83,7 @@ TEST(Gather, RefusesAPieceForAFrameThatIsOver) {
     EXPECT_EQ(gather.arrive(3, kA), true);
     gather.close(3);
     EXPECT_EQ(error_of(gather.arrive(3, kA)), "pixels for frame 3, which is over");
-    // Frames in which this machine took no part are over too.
+    // Frames in which this machine took no part are over, too.
     EXPECT_EQ(error_of(gather.arrive(2, kA)), "pixels for frame 2, which is over");
 }
 

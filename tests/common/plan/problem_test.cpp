@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Optional;
 
-// Two servers beside each other on 10 by 4 pixels, five objects.
+// Two servers side by side on 10 by 4 pixels, five objects.
 FramePlan good_plan() {
     FramePlan plan;
     plan.view.width = 10;
@@ -110,7 +110,7 @@ TEST(PlanProblem, NamesAnObjectInTwoGroupsUnlessThatIsAllowed) {
     EXPECT_EQ(problem(plan, 5, Grouping::kAtLeastOnce), std::nullopt);
 }
 
-// Splits of a small screen, then one rectangle moved: counting pixels says what is right.
+// Splits a small screen, then moves one rectangle: counting pixels says what is right.
 TEST(PlanProblem, AgreesWithCountingPixelsForRandomTiles) {
     std::mt19937 random(3);
     int good = 0;

@@ -60,7 +60,7 @@ TEST(FinalRegion, OfAnEmptyPictureIsNothing) {
     EXPECT_TRUE(final_region(two_halves(), server_id(1)).empty());
 }
 
-// Small screens dealt out in stripes and blocks, random contents, everything counted pixel by pixel.
+// Small screens dealt out in stripes and blocks, random contents; every pixel is counted.
 TEST(TransfersAndFinalRegions, AgreeWithEveryPixelOfRandomPlans) {
     std::mt19937 random(5);
     const auto below = [&](int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); };

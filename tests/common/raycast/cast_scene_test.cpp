@@ -15,7 +15,7 @@ namespace {
 using test::Numbers;
 using test::Triangles;
 
-// As a CastScene has them.
+// The mesh as a CastScene has it.
 Triangles scaled(const Mesh& mesh, float scale, float pose = 0) {
     Triangles triangles;
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
@@ -29,7 +29,7 @@ std::vector<DrawRun> some_runs(const ObjectSet& scene, Numbers& numbers) {
     for (ObjectId id = 0; id < scene.objects.size(); ++id) {
         const Object& object = scene.objects[id];
         if (numbers.below(3) == 0) continue;
-        // The whole, or pieces of it.
+        // The whole object, or pieces of it.
         const bool whole = numbers.below(2) == 0;
         std::uint32_t first = object.first_triangle;
         const std::uint32_t end = first + object.triangle_count;
@@ -78,7 +78,7 @@ TEST_F(CastSceneTest, IsScaledByAPowerOfTwoToAtMostOne) {
     }
 }
 
-// What is wanted of a tree over all is what a tree over that has.
+// A tree over all that is limited to the wanted triangles finds the same as a tree over these alone.
 TEST_F(CastSceneTest, WantedFindsWhatATreeOfThatFinds) {
     Numbers numbers(4);
     CastScene part(scene_, two_, SahDevice::kThreads);
@@ -92,7 +92,7 @@ TEST_F(CastSceneTest, WantedFindsWhatATreeOfThatFinds) {
             const Hits hits = hits_in(cast_.wanted(), some);
             EXPECT_EQ(hits, hits_in(part.wanted(), some));
             EXPECT_EQ(hits, hits_in(part.all(), some));
-            // And by brute force.
+            // Brute force finds it, too.
             Triangles wanted = scaled(scene_.mesh, cast_.scale());
             wanted.indices.clear();
             std::vector<std::uint32_t> numbers_of;
@@ -158,7 +158,7 @@ TEST(MovingCastScene, IsWhereItsTrianglesAreAtAPose) {
     }
 }
 
-// Of so many triangles that a team shares the work.
+// So many triangles that a team shares the work.
 TEST(MovingCastScene, IsTheSameForAnyTeam) {
     const ObjectSet scene = build_objects(*make_builtin("swarm", 60'000), {3, 0});
     const SteadyClock clock;

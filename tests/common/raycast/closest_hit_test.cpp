@@ -9,8 +9,8 @@
 #include "tests/common/raycast/rays.h"
 #include "tests/support/models.h"
 
-// That the first hit of a ray is the nearest of all triangles: by the same arithmetic without a tree, to the
-// bit, and by exact geometry as far as single precision can tell.
+// The first hit of a ray is the nearest of all triangles: by the same arithmetic without a tree, to the bit,
+// and by exact geometry as far as single precision can tell.
 
 namespace swath {
 namespace {
@@ -28,7 +28,7 @@ Hits hits_of_all(const PacketKernels& kernels, const Triangles& triangles, std::
     return hits;
 }
 
-// In packets, as they come.
+// In packets, in the rays' order.
 Hits hits_in(const PacketKernels& kernels, const SahTree& tree, std::span<const float> corners,
              std::span<const Ray> rays) {
     const KernelTree kernel = kernel_tree(tree, corners);
@@ -99,9 +99,9 @@ TEST_P(ClosestHit, InATreeIsThatOfAllTriangles) {
     }
 }
 
-// A triangle as a ray sees it, in double precision, by the axis along which the ray is longest, and what
-// single precision may make of it. The kernels compute, with e = 2^-24 the relative error of an operation and
-// R the largest component of corner - origin, for a corner's place beside the ray (|shear| <= 1):
+// A triangle seen along a ray, in double precision, by the axis along which the ray is longest, and the error
+// of single precision. The kernels compute, with e = 2^-24 the relative error of an operation and R the
+// largest component of corner - origin, for a corner's position beside the ray (|shear| <= 1):
 //   corner - origin: R e; shear: two divisions or products, 2 e R; times z: e R, and z's own R e; the
 //   difference of two numbers up to R: 2 R e. Seven in all: h = 8 R e is more.
 // An edge function b x c then is off by h (|b| + |c|) twice over (both components), h^2 twice, and by its own
@@ -110,9 +110,9 @@ TEST_P(ClosestHit, InATreeIsThatOfAllTriangles) {
 struct Seen {
     bool certain_hit = false;
     bool certain_miss = false;
-    double distance = 0;      // where there is an area
-    double distance_off = 0;  // by how much a kernel's may differ
-    double beside = 0;        // how far the ray is outside of the box around the seen triangle
+    double distance = 0;      // if there is an area
+    double distance_off = 0;  // the most by which a kernel's may differ
+    double beside = 0;        // distance of the ray from the box around the projected triangle
     double rounding = 0;      // h
 };
 Seen see(const Triangles& triangles, std::size_t triangle, const Ray& ray) {
@@ -157,7 +157,7 @@ Seen see(const Triangles& triangles, std::size_t triangle, const Ray& ray) {
         seen.beside = std::max({seen.beside, low, -high});
     }
     // A distance is a mean of the corners', weighted by edge functions. Each weight is off by its share of
-    // sum_off; a few operations more on numbers as large as the farthest corner.
+    // sum_off; a few more operations follow on numbers as large as the farthest corner.
     const auto [near, far] = std::minmax({corner[0].z, corner[1].z, corner[2].z});
     const double area = std::abs(sum);
     const double share = area > 2 * sum_off ? std::min(1.0, 2 * sum_off / (area - sum_off)) : 1.0;
@@ -193,7 +193,7 @@ TEST_P(ClosestHit, IsWhatExactGeometrySays) {
     }
     RecordProperty("certain",
                    std::to_string(static_cast<double>(certain) / static_cast<double>(rays_.size())));
-    // Where rays aren't aimed at edges, almost all are certain: so this test does say something.
+    // Most rays are certain if they are not aimed at edges: so this test does say something.
     if (set_.name == "small" || set_.name == "large") {
         test::Numbers numbers(5);
         std::size_t clear = 0;
@@ -234,7 +234,7 @@ TEST(ClosedSurface, LetsNoRayOut) {
                 rays.push_back({from, 0.5f * (a + b) - from});
                 rays.push_back({from, a + numbers.fraction() * (b - a) - from});
                 rays.push_back({from, numbers.point()});
-                // Along an axis, right at a corner.
+                // Along an axis, exactly at a corner.
                 for (int axis = 0; axis < 3; ++axis) {
                     Ray ray{a, glm::vec3(0)};
                     ray.origin[axis] = centre[axis];
@@ -253,11 +253,11 @@ TEST(ClosedSurface, LetsNoRayOut) {
     }
 }
 
-// Of equals the smallest number.
+// Of equal hits the smallest number wins.
 TEST(ClosestHitOfEquals, IsTheSmallestTriangle) {
     Triangles pile;
     for (int i = 0; i < 100; ++i) pile.add({-1, -1, 2}, {3, -1, 2}, {-1, 3, 2});
-    // Cutting it apart must not change that: others that make planes worth while.
+    // Even if the pile is cut apart: these triangles make planes worth while.
     for (int i = 0; i < 200; ++i) {
         const float at = 3 + 0.01f * static_cast<float>(i);
         pile.add({at, 0, 5}, {at + 0.005f, 0, 5}, {at, 0.005f, 5.5f});

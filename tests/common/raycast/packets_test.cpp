@@ -9,7 +9,7 @@
 #include "common/base/check.h"
 #include "tests/common/raycast/rays.h"
 
-// What a packet's ray finds is its own affair: not its companions', nor its lane's, nor the tree's.
+// A ray of a packet finds the same whatever its companions, its lane and the tree are.
 
 namespace swath {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using test::Numbers;
 using test::Triangles;
 
-// A ray as kernels take it, with the depth that it has at a distance.
+// A ray in the form of the kernels, with the depth that it has at a distance.
 struct Cast {
     Ray ray;
     float depth_offset = 1.001f;
@@ -26,7 +26,7 @@ constexpr float kDepthScale = 0.05f;
 
 struct Found {
     std::uint32_t triangle = kNoTriangle;
-    std::array<std::uint32_t, 4> bits{};  // nearness and weights, where there is a triangle
+    std::array<std::uint32_t, 4> bits{};  // nearness and weights, if there is a triangle
     bool operator==(const Found&) const = default;
 };
 
@@ -59,7 +59,7 @@ using Kernel = void (*)(const KernelTree&, const RayPacket&, PacketHits&);
 
 Found cast_alone(Kernel kernel, const KernelTree& tree, const Cast& cast) {
     RayPacket packet = empty_packet();
-    // Direction 0 in the other lanes: they are not there.
+    // The other lanes are not active, and have direction 0.
     put(packet, 5, cast);
     packet.active = 1u << 5;
     PacketHits hits;
@@ -78,7 +78,7 @@ struct Scene {
         tree = kernel_tree(sah, corners);
         for (std::uint32_t t = 0; t < triangles.count(); ++t) all.push_back(t);
     }
-    // A tree that is one triangle, in the box of all.
+    // Calls `use` with a tree that has only this triangle, in the box of all.
     template <class Use>
     auto with_only(std::uint32_t triangle, Use use) const {
         const SahNode leaf = SahNode::leaf(triangle, 1);
@@ -100,7 +100,7 @@ std::vector<Scene> scenes() {
     made.emplace_back(test::soup(700, 0.3f, 1));
     made.emplace_back(test::bumpy_sphere(12, 0.4f, 2), kFastSah);
     made.emplace_back(test::grid_of_squares(4));
-    // Twice the same, from number 600 on.
+    // The same twice, from number 600 on.
     Triangles twice = test::soup(300, 0.5f, 3);
     twice.add(test::soup(300, 0.02f, 4));
     twice.add(Triangles(twice));
@@ -108,7 +108,7 @@ std::vector<Scene> scenes() {
     return made;
 }
 
-// With a largest component between 1/2 and 1, as kernels want it (2^-20 to 2^20).
+// Rays with a largest component between 1/2 and 1, as kernels demand (2^-20 to 2^20).
 std::vector<Cast> casts(const Triangles& triangles, std::size_t count, std::uint32_t seed) {
     std::vector<Cast> made;
     for (Ray ray : test::rays_at(triangles, count, seed)) {
@@ -134,7 +134,8 @@ std::vector<Cast> casts_from(const glm::vec3& eye, std::size_t count, std::uint3
     return made;
 }
 
-// Packets of any of `pool`, in any lanes, some of them not active: those hold rays, too, or anything finite.
+// Casts packets of any rays of `pool`, in any lanes, some not active: these hold rays or other finite
+// numbers.
 void expect_independent(Kernel kernel, const KernelTree& tree, const std::vector<Cast>& pool,
                         std::span<const Found> alone, Numbers& numbers, bool one_origin) {
     RayPacket packet = empty_packet();
@@ -211,7 +212,7 @@ TEST_P(Packets, WithoutARayFindNothing) {
     EXPECT_EQ(kernels_.any(scenes_[0].tree, packet, but.data()), 0u);
 }
 
-// Both kinds of nearest: the best of what every triangle alone gives, of equals the smallest number.
+// Both kinds of nearest find the best of what every triangle alone gives; of equal ones the smallest number.
 TEST_P(Packets, FindTheBestOfWhatEachTriangleAloneGives) {
     int hits = 0;
     const auto expect_best = [&hits](Kernel kernel, const Scene& scene, const std::vector<Cast>& pool) {
@@ -237,7 +238,7 @@ TEST_P(Packets, FindTheBestOfWhatEachTriangleAloneGives) {
     EXPECT_GT(hits, 100);
 }
 
-// Nothing that is before depth 0 or from depth 1 on.
+// Nothing is found before depth 0, or from depth 1 on.
 TEST_P(Packets, FindNothingOutsideOfDepths) {
     const Scene& scene = scenes_[0];
     for (const Cast& cast : casts_from({0, 0, 0}, 300, 7)) {
@@ -256,7 +257,7 @@ TEST_P(Packets, FindAnyWhereThereIsOneButTheirOwn) {
     Numbers numbers(8);
     for (const Scene& scene : scenes_) {
         const std::vector<Cast> pool = casts(scene.triangles, 160, 9);
-        // Which triangles each ray hits at all.
+        // The triangles that each ray hits at all.
         std::vector<std::vector<std::uint32_t>> hit(pool.size());
         for (std::size_t i = 0; i < pool.size(); ++i)
             for (const std::uint32_t t : scene.all) {
@@ -320,7 +321,7 @@ TEST_P(Packets, CanBeOfAnyLengthOfDirection) {
         const auto once = nearest_hit(kernels_, scene.tree, cast.ray);
         for (const int exponent : {-60, -3, 1, 90}) {
             Ray scaled = cast.ray;
-            // Without losing digits of those next to nothing.
+            // Skips rays whose tiny components would lose digits.
             bool exact = true;
             for (int axis = 0; axis < 3; ++axis) {
                 scaled.direction[axis] = std::ldexp(cast.ray.direction[axis], exponent);

@@ -24,7 +24,7 @@ View some_view(Numbers& numbers, int width, int height) {
     return make_view(camera, width, height);
 }
 
-// The pixel and the depth of the point where a ray is after a while, by the view's matrix.
+// Compares with the pixel and the depth that the view's matrix gives for a point on the ray.
 TEST(Pinhole, RaysAreThoseOfPixelCentresAndDepthIsThatOfTheMatrix) {
     Numbers numbers(1);
     for (const auto& [width, height] : {std::pair{640, 480}, {33, 77}, {4096, 2160}, {1, 1}})

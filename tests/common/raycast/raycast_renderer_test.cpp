@@ -17,7 +17,7 @@
 #include "tests/support/drawings.h"
 #include "tests/support/models.h"
 
-// A pixel depends on the objects and the view only, and is nearly the rasteriser's.
+// A pixel depends only on the objects and the view, and is nearly the rasteriser's.
 
 namespace swath {
 namespace {
@@ -29,7 +29,7 @@ using test::expect_same;
 using test::view_of;
 using testing::HasSubstr;
 
-// In the middle of it, with surfaces on all sides, some of them before the near plane.
+// From the middle of the model, with surfaces on all sides, some before the near plane.
 View view_inside(const ObjectSet& scene) {
     Camera camera;
     const glm::vec3 size = scene.bounds.size();
@@ -58,7 +58,7 @@ std::unique_ptr<Renderer> make(const ObjectSet& scene, const How& how = {}) {
 PixelFrame draw(const ObjectSet& scene, const View& view, const How& how) {
     return draw(*make(scene, how), all_of(scene), view, view.viewport());
 }
-// OpenGL is bound to its thread.
+// OpenGL is bound to its thread, so it gets one.
 PixelFrame rasterise(const ObjectSet& scene, const View& view) {
     PixelFrame frame;
     std::thread([&] {
@@ -102,7 +102,7 @@ TEST_P(RaycastRendererOf, DrawsAPartExactlyAsItIsInTheWhole) {
     }
 }
 
-// Runs of all lengths, dealt out to machines, whose pixels then go to the first.
+// Deals ranges of all lengths out to machines, and composites their pixels on the first.
 TEST_P(RaycastRendererOf, DrawsTogetherWhatSeveralDrawAndComposite) {
     std::uint32_t seed = 5;
     const auto next = [&] { return (seed = seed * 1664525 + 1013904223) >> 16; };
@@ -110,7 +110,8 @@ TEST_P(RaycastRendererOf, DrawsTogetherWhatSeveralDrawAndComposite) {
         for (const View& view : views_)
             for (const std::size_t machines : {2u, 3u}) {
                 std::vector<std::vector<DrawRun>> groups(machines);
-                // An object is one's: of equal depths in two places the composite knows objects only.
+                // An object is on one machine: of equal depths on two machines the composite knows only the
+                // objects.
                 for (const DrawRun& run : all_) groups[next() % machines].push_back(run);
                 const Rect screen = view.viewport();
                 const PixelFrame whole = draw(scene_, view, how);
@@ -141,14 +142,14 @@ TEST_P(RaycastRendererOf, ForgetsTheFrameBefore) {
     }
 }
 
-// Drawn together, the smaller id of equal depths shows, as compositing has it.
+// When drawn together, the smaller id of equal depths shows, as with compositing.
 TEST(RaycastRenderer, SettlesTiesByTheSmallerId) {
     const ObjectSet scene = test::builtin_scene("town", 5000);
     const View view = view_of(scene);
     const PixelFrame whole = draw(scene, view, {});
     const auto renderer = make(scene);
     std::vector<DrawRun> all = all_of(scene);
-    // Without the winner of a pixel there is often another one as near.
+    // Without the winner of a pixel there is often another triangle as near.
     int ties = 0;
     for (const DrawRun& run : all) {
         std::vector<DrawRun> others;
@@ -205,7 +206,7 @@ TEST(RaycastRenderer, SaysWhatItIs) {
                                HasSubstr("each frame")));
 }
 
-// A view that has no rays, or none that are numbers.
+// A view with no rays, or with rays that are not finite.
 TEST(RaycastRenderer, RefusesAViewThatIsNoPerspective) {
     const ObjectSet scene = test::builtin_scene("knot", 2000);
     const std::vector<DrawRun> all = all_of(scene);
@@ -235,7 +236,7 @@ ObjectSet moving_scene() {
     return build_objects(std::move(mesh), {3, 0});
 }
 
-// One of whatever size: the still model is scaled by itself.
+// A model of any size: the still model is scaled by itself.
 TEST(MovingRaycastRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
     const ObjectSet moving = moving_scene();
     const std::vector<DrawRun> all = all_of(moving);
@@ -259,7 +260,7 @@ TEST(MovingRaycastRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
     }
 }
 
-// A pose that cannot be is an error of that frame only.
+// A bad pose is an error of that frame only.
 TEST(MovingRaycastRenderer, RefusesAPoseThatIsNotANumberAndGoesOn) {
     const ObjectSet moving = moving_scene();
     const std::vector<DrawRun> all = all_of(moving);
@@ -278,22 +279,22 @@ TEST(MovingRaycastRenderer, RefusesAPoseThatIsNotANumberAndGoesOn) {
     }
 }
 
-// --- beside the rasteriser
+// Comparison with the rasteriser.
 
 struct Agreement {
     int drawn = 0;  // pixels that either draws
     int away = 0;   // of them, away from silhouettes
     int drawn_by_one = 0;
-    int far_depths = 0;   // away, with depths further apart than 1e-5
-    int far_colours = 0;  // away, with a channel further apart than 2
+    int far_depths = 0;   // away, with depths that differ by more than 1e-5
+    int far_colours = 0;  // away, with a channel that differs by more than 2
     int other_ids = 0;    // away
     float depth = 0;      // the largest difference away
     int colour = 0;
 };
 
-// Away from silhouettes: all eight neighbours are drawn, and depth goes on through the pixel evenly in every
-// direction, so that no two surfaces meet there. A rasteriser has moved corners to a grid of 1/256 of a pixel
-// or so: where a surface is seen from its side that moves depths most, and where it bends there colours.
+// True away from silhouettes: all eight neighbours are drawn, and depth changes evenly through the pixel in
+// every direction, so that no two surfaces meet there. A rasteriser moves corners to a grid of about 1/256 of
+// a pixel: this moves depths most where a surface is seen from its side, and colours where it bends.
 constexpr float kEven = 1e-5f;
 bool is_away(const PixelFrame& frame, int x, int y) {
     const Rect& rect = frame.rect();
@@ -360,7 +361,7 @@ TEST(RaycastRenderer, HasTheRasterisersDepthsOfTheConferenceAwayFromSilhouettes)
     expect_agreement(build_objects(*load_model(path), {4, 0}), 0.5);
 }
 
-// --- shadows
+// Shadows.
 
 // A plate from -1 to 1 at height 1 over a floor from -5 to 5 at height 0.
 ObjectSet plate_over_floor() {
@@ -418,7 +419,7 @@ TEST(Shadows, AreWhereThePlateIsInTheLightsWay) {
                         ++counts[2];
                         continue;
                     }
-                    // Where the light that comes here crosses the plate's height.
+                    // The point where the light that comes here crosses the plate's height.
                     const glm::dvec3 above =
                         point +
                         glm::dvec3(view.to_light) * ((1 - point.y) / static_cast<double>(view.to_light.y));
@@ -433,7 +434,7 @@ TEST(Shadows, AreWhereThePlateIsInTheLightsWay) {
     }
 }
 
-// Every server has the whole model: what others draw is in the light's way, too.
+// Every server has the whole model: objects that others draw are in the light's way, too.
 TEST(Shadows, AreCastByWhatIsNotDrawn) {
     const ObjectSet scene = plate_over_floor();
     View view = view_of(scene);
@@ -453,7 +454,7 @@ TEST(Shadows, AreCastByWhatIsNotDrawn) {
     }
 }
 
-// No surface shadows itself: on a convex model with the light at the eye all that is seen is lit.
+// No surface shadows itself: on a convex model with the light at the eye everything visible is lit.
 TEST(Shadows, AreNotOnAConvexSurfaceThatFacesTheLight) {
     for (const float size : {1.0f, 1e-6f, 1e9f}) {
         const ObjectSet scene = build_objects(test::cube(size), {2, 0});

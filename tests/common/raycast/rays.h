@@ -25,7 +25,7 @@ inline std::vector<float> corners_of(const Triangles& triangles) {
 
 // Rays at triangles, of all kinds in turn: from inside and outside, near and far; at corners and edges; from
 // corners; along axes and in axis planes through corners; with components that are zero of either sign,
-// denormal, or next to nothing.
+// denormal, or tiny.
 inline std::vector<Ray> rays_at(const Triangles& triangles, std::size_t count, std::uint32_t seed) {
     Numbers numbers(seed);
     const Box box = triangles.box();
@@ -99,7 +99,7 @@ inline std::vector<Ray> rays_at(const Triangles& triangles, std::size_t count, s
             }
         }
         const glm::vec3 reach = glm::abs(ray.direction);
-        // Where all corners are one.
+        // All corners may be one.
         if (!(std::max({reach.x, reach.y, reach.z}) > 0)) ray.direction = numbers.point();
         rays.push_back(ray);
     }

@@ -13,7 +13,7 @@
 #include "common/scene/procedural.h"
 #include "tests/support/drawings.h"
 
-// What makes a cluster's picture exact: a pixel depends on the objects and the view only, not on who draws
+// This makes a cluster's picture exact: a pixel depends only on the objects and the view, not on who draws
 // it, which other pixels are drawn with it or what was drawn before.
 
 namespace swath {
@@ -36,7 +36,7 @@ std::unique_ptr<Renderer> make(const ObjectSet& scene, RendererKind kind = Rende
     return renderer ? std::move(*renderer) : nullptr;
 }
 
-// On a machine of its own, as it were: a renderer is bound to its thread and alone there.
+// Draws on a thread of its own, as if on another machine: a renderer is bound to its thread and alone there.
 PixelFrame draw_elsewhere(const ObjectSet& scene, std::span<const DrawRun> runs, const View& view,
                           RendererKind kind = RendererKind::kOsmesa) {
     PixelFrame frame;
@@ -86,7 +86,7 @@ ObjectSet moving_scene() {
     return build_objects(std::move(mesh), {3, 0});
 }
 
-// Vertices are moved as posed() does it, to the last bit.
+// Vertices move as in posed(), to the last bit.
 TEST(MovingRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
     const ObjectSet moving = moving_scene();
     const std::vector<DrawRun> all = all_of(moving);
@@ -155,7 +155,7 @@ TEST_F(RendererTest, ForgetsTheFrameBefore) {
     EXPECT_EQ(compare(nothing, nothing, view_.viewport()).active, 0);
 }
 
-// Runs of all lengths, so that objects take one call or several.
+// Ranges of all lengths, so that objects take one call or several.
 std::vector<DrawRun> cut(const std::vector<DrawRun>& runs, std::uint32_t seed) {
     std::vector<DrawRun> parts;
     for (DrawRun rest : runs)
@@ -219,7 +219,7 @@ TEST_F(RendererTest, NamesTheLimitOfAPictureThatIsTooLarge) {
     EXPECT_THAT(status.error().message,
                 testing::MatchesRegex("picture size 70000x61: this renderer's limits are "
                                       "1x1 to [0-9]+x[0-9]+"));
-    // It can go on with what fits.
+    // It can draw pictures of a good size afterwards.
     expect_same(draw(*renderer_, all_, view_, view_.viewport()), draw_elsewhere(scene_, all_, view_),
                 view_.viewport());
 }
@@ -246,7 +246,7 @@ class TiesTest : public RendererTest {
 };
 
 TEST_F(TiesTest, OccurBetweenObjects) {
-    // Drawn the other way round, the later of two equal depths shows.
+    // In the reversed order, the later of two equal depths shows.
     std::vector<DrawRun> reversed = all_;
     std::reverse(reversed.begin(), reversed.end());
     const PixelFrame up = draw(*renderer_, all_, view_, view_.viewport());

@@ -34,7 +34,7 @@ Frustum frustum_of(const glm::vec3& eye, float fov_y) {
 const Frustum kLittle = frustum_of({0, 1, 6}, 0.2f);
 const Frustum kMuch = frustum_of({1, 2, 15}, 0.9f);
 const Frustum kEverything = frustum_of({0, 0, 60}, 1.2f);
-const Frustum kNothing = frustum_of({0, 0, 300}, 1.2f);  // all of it is beyond the far plane
+const Frustum kNothing = frustum_of({0, 0, 300}, 1.2f);  // all boxes are beyond the far plane
 
 Ids visible_by_key(const Frustum& frustum, std::span<const Box> boxes, const Ids& keys) {
     Ids visible;
@@ -83,7 +83,7 @@ TEST_F(CullAndSortTest, GoesByHowMuchTheFrameBeforeSaw) {
     EXPECT_EQ(cull_.way(), Way::kScan);
     EXPECT_EQ(cull_.next_way(), Way::kHierarchy);
     cull_.cull(kEverything);
-    EXPECT_EQ(cull_.next_way(), Way::kHierarchy);  // which need look at little to find all
+    EXPECT_EQ(cull_.next_way(), Way::kHierarchy);  // the hierarchy looks at few nodes to find everything
 }
 
 TEST_F(CullAndSortTest, NeverScansWhatIsNumberedByKey) {

@@ -58,7 +58,7 @@ TEST(ResourceSpace, SaysWhatIsWrongWithSizes) {
     EXPECT_EQ(problem_of({8, 0, 64}), "resource space: dimension 1 has no resources; at least 1 is needed");
     EXPECT_EQ(problem_of({65'536, 65'536, 2}),
               "resource space: with dimension 2 (of 2) there are more than 4294967296 points");
-    // A product that overflows 64 bits to something small.
+    // This product overflows 64 bits to something small.
     EXPECT_EQ(
         problem_of({4, std::uint64_t{1} << 62}),
         "resource space: with dimension 1 (of 4611686018427387904) there are more than 4294967296 points");

@@ -13,7 +13,7 @@ using Ids = std::vector<std::uint32_t>;
 
 inline const SteadyClock kClock;
 
-// Keys below `points`, at random.
+// Random keys below `points`.
 inline Ids random_keys(std::size_t objects, std::uint64_t points, unsigned seed) {
     std::mt19937_64 random(seed);
     Ids keys(objects);
@@ -33,7 +33,7 @@ inline Ids some_ids(std::size_t objects, double share, unsigned seed) {
 
 inline Ids all_ids(std::size_t objects) { return some_ids(objects, 1, 1); }
 
-// What every way to sort must answer.
+// Every way to sort must return this.
 inline Ids by_key_and_id(std::span<const std::uint32_t> keys, Ids ids) {
     std::ranges::stable_sort(ids, {}, [&](std::uint32_t id) { return keys[id]; });
     return ids;

@@ -1,4 +1,4 @@
-// Every way to sort answers what a stable sort does.
+// Every way to sort returns the same as a stable sort.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kAllPoints = std::uint64_t{1} << 32;
 
-// All of them, for the same objects. Those that keep something for each point sit out large spaces.
+// All ways to sort the same objects. Those that keep something for each point sit out large spaces.
 class Sorters {
   public:
     Sorters(const Ids& keys, std::uint64_t points, std::size_t members)
@@ -38,7 +38,7 @@ class Sorters {
 
     void expect_order(const Ids& visible) {
         const Ids expected = by_key_and_id(keys_, visible);
-        // ASSERT_TRUE, not ASSERT_EQ: a million numbers help nobody.
+        // ASSERT_TRUE, because ASSERT_EQ would print a million numbers.
         ASSERT_TRUE(copy(radix_.sort(visible)) == expected);
         ASSERT_TRUE(!counting_ || copy(counting_->sort(visible)) == expected);
         ASSERT_TRUE(!literal_ || copy(literal_->sort(visible)) == expected);

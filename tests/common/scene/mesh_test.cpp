@@ -75,7 +75,7 @@ TEST(MeshTest, a_motion_is_none_or_one_a_vertex_and_ends_where_a_coordinate_may_
     EXPECT_EQ(
         why_not(mesh),
         "2 vertices move to where they are not finite or beyond 1e+18, the first is vertex 2: by 1 nan 1");
-    // Each is a coordinate, their sum is none.
+    // Each is a valid coordinate, but their sum is not.
     mesh = test::cube(kMaxCoordinate);
     mesh.motion.assign(8, glm::vec3(0, 0, kMaxCoordinate));
     EXPECT_THAT(why_not(mesh), HasSubstr("4 vertices move to"));

@@ -64,7 +64,7 @@ TEST(ModelBlobTest, the_digest_is_sha_256) {
 TEST(ModelBlobTest, every_prefix_is_refused) {
     const Bytes blob = cube_blob();
     for (std::size_t size = 0; size < blob.size(); ++size) {
-        // A copy of exactly that size, so that the sanitizers see a read past its end.
+        // Copies exactly that many bytes, so that the sanitizers see a read past the end.
         EXPECT_NE(why_not(Bytes(blob.begin(), blob.begin() + static_cast<std::ptrdiff_t>(size))), "valid")
             << size;
     }

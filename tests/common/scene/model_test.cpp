@@ -172,7 +172,7 @@ TEST(ModelTest, normals_stay_across_their_surface_under_any_transform) {
             load_model(folder.write("m.gltf", gltf(R"([{"mesh":0,"matrix":[)" + matrix + "]}]")));
         return mesh ? mesh->vertices[0].normal : std::array<std::int16_t, 3>{};
     };
-    // Column by column. A shear of z along x tilts nothing: the surface stays in the plane z = 0 ...
+    // Matrices are by column. A shear of z along x tilts nothing: the surface stays in the plane z = 0 ...
     EXPECT_EQ(normal_under("1,0,0,0, 0,1,0,0, 5,0,1,0, 0,0,0,1"), pack_normal({0, 0, 1}));
     // ... one of x along z tilts the surface, and a scale squeezes it.
     EXPECT_EQ(normal_under("1,0,1,0, 0,1,0,0, 0,0,1,0, 0,0,0,1"), pack_normal({-1, 0, 1}));

@@ -22,7 +22,7 @@ ObjectSet by_count(Mesh mesh, std::size_t objects) {
     return build_objects(std::move(mesh), {.depth = {}, .objects = objects});
 }
 
-// The numbers of a triangle's three vertices, as something that can be compared.
+// The numbers of a triangle's three vertices, which can be compared.
 using Corners = std::array<std::array<float, 4>, 3>;
 Corners corners_of(const Mesh& mesh, std::size_t triangle) {
     Corners corners;
@@ -33,7 +33,7 @@ Corners corners_of(const Mesh& mesh, std::size_t triangle) {
     return corners;
 }
 
-// How often each triangle of each material is there.
+// Counts each triangle of each material.
 std::map<std::pair<Corners, std::uint32_t>, int> triangles_of(const Mesh& mesh) {
     std::map<std::pair<Corners, std::uint32_t>, int> result;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) ++result[{corners_of(mesh, t), mesh.material(t)}];
@@ -46,7 +46,7 @@ bool contains(const Box& outer, const Box& inner) {
     return both == outer;
 }
 
-// Which of the 2^depth cells an axis a triangle's centre is in, in the plain way.
+// Finds the plain way in which of the 2^depth cells an axis a triangle's centre lies.
 std::array<int, 3> cell_of(const ObjectSet& set, std::size_t triangle) {
     Box box;
     for (std::size_t c = 0; c < 3; ++c)
@@ -121,7 +121,7 @@ TEST(ObjectsTest, boxes_are_around_what_moves_at_every_pose) {
     const ObjectSet set = at_depth(mesh, 3);
     EXPECT_TRUE(set.moves());
     ASSERT_EQ(set.mesh.motion.size(), set.mesh.vertices.size());
-    // Vertices are still those that they were.
+    // Vertices keep their values.
     EXPECT_EQ(bounds(set.mesh, 1), bounds(mesh, 1));
     EXPECT_EQ(set.end_bounds, bounds(mesh, 1));
     EXPECT_TRUE(contains(set.swept_bounds(), set.end_bounds));
@@ -268,7 +268,7 @@ TEST(ObjectsTest, the_same_mesh_gives_the_same_objects) {
     EXPECT_EQ(a.mesh, b.mesh);
 }
 
-// In no order, with numbers that leave gaps.
+// Materials in no order, with numbers that leave gaps.
 Mesh painted(Mesh mesh, std::uint32_t materials) {
     mesh.materials.clear();
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)

@@ -21,8 +21,7 @@ using Colour = std::array<std::uint8_t, 4>;
 
 enum class Encoding { Ascii, Little, Big };
 
-// Writes a PLY file value by value, in any encoding: the header line and the body's value come from one
-// place.
+// Writes a PLY file in any encoding, value by value: header line and value come from the same call.
 class PlyWriter {
   public:
     explicit PlyWriter(Encoding encoding, std::string newline = "\n")
@@ -71,7 +70,7 @@ class PlyWriter {
 };
 
 Result<Mesh> read(const std::string& text) {
-    // A copy of exactly that size, so that the sanitizers see a read past its end.
+    // Copies exactly that many bytes, so that the sanitizers see a read past the end.
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
     return read_ply(bytes);
 }
@@ -243,7 +242,7 @@ TEST(PlyTest, a_file_cut_off_anywhere_is_refused_or_whole) {
             const Result<Mesh> mesh = read(whole.substr(0, size));
             if (mesh) {
                 EXPECT_EQ(*mesh, test::cube()) << size;
-                // Only the blanks at the end of an ASCII file may go.
+                // An ASCII file may lose only the blanks at its end.
                 EXPECT_GE(size + 2, whole.size());
             } else {
                 EXPECT_EQ(mesh.error().message.find('\n'), std::string::npos);

@@ -30,7 +30,7 @@ double side(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-// Whether a line along `axis` through `at` passes inside triangle t.
+// True if a line along `axis` through `at` passes inside triangle t.
 bool passes(const Mesh& mesh, std::size_t t, int axis, const glm::dvec2& at) {
     const glm::dvec2 a = flat(mesh.vertices[mesh.indices[3 * t]].position, axis);
     const glm::dvec2 b = flat(mesh.vertices[mesh.indices[3 * t + 1]].position, axis);
@@ -76,7 +76,7 @@ TEST(ProceduralTest, the_models_have_the_same_bits_on_every_machine) {
     const auto hex = [](const std::string& name) {
         return to_hex(digest(write_blob(make(name, 10'000)).bytes()));
     };
-    // From g++ and clang++ on x86-64. A change of a formula changes them, nothing else may.
+    // From g++ and clang++ on x86-64. Only a change of a formula may change them.
     EXPECT_EQ(hex("knot"), "ff1d3fa7640fa4b375e56462c6a6aac06ddb77a7fb2f13835f1b1acec4bff97e");
     EXPECT_EQ(hex("spheres"), "09313ffddc5998214560abc82366cdf9ab50d2a10a6e49a0e7b8d5c99bd6be2c");
     EXPECT_EQ(hex("town"), "c2393ee12d73b7746e8cc66d1d2f0301dbbdbdb546048f698a558e8439e929c0");
@@ -206,7 +206,7 @@ TEST(ProceduralTest, the_towns_faces_are_flat) {
         }
 }
 
-// The pieces of a mesh that hang together, as a number for each triangle.
+// Numbers the connected pieces of a mesh; one number for each triangle.
 std::vector<std::size_t> pieces(const Mesh& mesh) {
     std::vector<std::size_t> root(mesh.vertices.size());
     std::iota(root.begin(), root.end(), std::size_t{0});
@@ -260,7 +260,7 @@ TEST(ProceduralTest, the_swarms_spheres_keep_their_shape_and_only_they_move) {
             ASSERT_EQ(mesh.motion[mesh.indices[3 * t + c]], mesh.motion[piece[t]]);
 }
 
-// What cells of an octree have in common at pose 0 is spread out at pose 1.
+// Triangles that share a cell of an octree at pose 0 are spread out at pose 1.
 TEST(ProceduralTest, the_swarm_leaves_nobody_where_he_was) {
     const ObjectSet set = build_objects(make("swarm", 100'000), {.depth = 3, .objects = 0});
     double start = 0;

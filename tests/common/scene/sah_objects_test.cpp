@@ -70,7 +70,7 @@ TEST(SahObjects, AreRangesOfTrianglesByMaterialOfAboutTheNumberAskedFor) {
         }
 }
 
-// Small triangles, a hundred to a place, and their codes in the box around all.
+// Small triangles, a hundred around each point, and their codes in the box around all.
 std::vector<SahTriangle> crowds(const std::vector<glm::vec3>& places, Box& bounds) {
     std::mt19937 random(11);
     const auto number = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
@@ -86,7 +86,7 @@ std::vector<SahTriangle> crowds(const std::vector<glm::vec3>& places, Box& bound
     return triangles;
 }
 
-// Two and one are on either side of the middle.
+// Two crowds lie on one side of the middle and one on the other.
 TEST(SahCells, OfCrowdsThatAreApartHaveTrianglesOfOneOnly) {
     Box bounds;
     const auto triangles = crowds({{0, 0, 0}, {1.5f, 0, 0}, {9, 0, 0}}, bounds);
@@ -98,7 +98,7 @@ TEST(SahCells, OfCrowdsThatAreApartHaveTrianglesOfOneOnly) {
     }
 }
 
-// A server cuts what it has anew, a newcomer the model: both must have the same.
+// A server cuts the objects that it has anew, a newcomer cuts the model: both must get the same.
 TEST(SahObjects, AreTheSameWhateverTheModelWasCutIntoBefore) {
     const std::vector<Granularity> steps{{.objects = 40, .by = ObjectsBy::kSah},
                                          {4, 0},

@@ -56,7 +56,7 @@ TEST(CriticalPath, HasTheSpansAsTheyAre) {
 
 TEST(CriticalPath, StaysOnTheServerThatHadNothingToWaitFor) {
     FrameTimeline timeline = two_servers();
-    // The other's swath was there long before.
+    // The other's swath came long before.
     timeline.machines[1].spans = {span(Phase::kCull, 3, 4),         span(Phase::kRender, 4, 39),
                                   span(Phase::kPixelRead, 39, 40),  span(Phase::kSwap, 40, 41),
                                   span(Phase::kPixelWrite, 41, 45), span(Phase::kFinalRead, 45, 46),
@@ -90,7 +90,7 @@ TEST(CriticalPath, OfADisplayThatIsLateIsTheDisplays) {
     EXPECT_EQ(found[found.size() - 1], "display assemble");
 }
 
-// What was sent seems to arrive 0.1 ms before it was sent.
+// A message seems to arrive 0.1 ms before it was sent.
 TEST(CriticalPath, AllowsForClocksThatDisagreeALittle) {
     FrameTimeline timeline = frame(
         0,
@@ -102,7 +102,7 @@ TEST(CriticalPath, AllowsForClocksThatDisagreeALittle) {
          machine("display", {exactly(Phase::kAssemble, 21000, 23000)})});
     EXPECT_THAT(path(timeline), ElementsAre("client partition", "server 1 render", "server 1 swap",
                                             "server 0 pixel write", "server 0 send", "display assemble"));
-    // More than a little: what began later was not the cause.
+    // A span that begins more than a little later is not the cause.
     timeline.machines[3].spans = {exactly(Phase::kAssemble, 20700, 23000)};
     EXPECT_THAT(path(timeline), ElementsAre("client partition", "display assemble"));
 }
@@ -117,7 +117,7 @@ TEST(CriticalPath, FollowsAMessageThatCameBeforeItsSenderLookedAtTheClock) {
 }
 
 TEST(CriticalPath, PrefersTheOwnMachineThatWasBusyUntilThen) {
-    // Server 1's swath came while server 0 coded its own, or so the clocks say.
+    // By the clocks, server 1's swath came while server 0 coded its own.
     const FrameTimeline timeline = frame(
         0, {machine("server 0", {exactly(Phase::kRender, 0, 8000), exactly(Phase::kSwap, 8000, 9000),
                                  exactly(Phase::kPixelWrite, 9000, 9500)}),
@@ -125,8 +125,8 @@ TEST(CriticalPath, PrefersTheOwnMachineThatWasBusyUntilThen) {
     EXPECT_THAT(path(timeline), ElementsAre("server 0 render", "server 0 swap", "server 0 pixel write"));
 }
 
-// As the simulator has it: swaths are read from the card, tiles are gathered and on their way at once, and
-// nobody is seen waiting.
+// As in the simulator: swaths are read from the card, tiles are gathered and sent at once, and no machine has
+// a wait.
 TEST(CriticalPath, FollowsSwathsThatAreReadFromGraphicsCards) {
     const FrameTimeline timeline =
         frame(0, {machine("client", {span(Phase::kPartition, 0, 2)}),
@@ -140,7 +140,7 @@ TEST(CriticalPath, FollowsSwathsThatAreReadFromGraphicsCards) {
 }
 
 TEST(CriticalPath, TakesOnlySwathsForTheCauseOfAMerge) {
-    // Server 2 has nothing for anybody; it just finished drawing when server 1's swath came.
+    // Server 2 sends nothing; it just finished drawing when server 1's swath came.
     const FrameTimeline timeline = frame(
         0, {machine("server 0",
                     {span(Phase::kRender, 0, 5), span(Phase::kSwap, 5, 6), span(Phase::kPixelWrite, 20, 21)}),
@@ -169,7 +169,7 @@ TEST(CriticalPath, OfNothingIsEmpty) {
     EXPECT_THAT(path(frame(0, {machine("display", {span(Phase::kAssemble, 5, 4)})})), ElementsAre());
 }
 
-// Everybody merges and codes at the same instant, and again.
+// All servers composite and code at the same instant, repeatedly.
 TEST(CriticalPath, EndsAlsoWhereTimeStandsStill) {
     FrameTimeline timeline;
     for (std::size_t s = 0; s < 4; ++s) {

@@ -1,5 +1,5 @@
-// On simulated machines it is known what a picture waited for: with one frame at a time and a network that
-// takes no time, something of the path is at work at every moment.
+// The critical path of simulated machines is known: with one frame at a time and a network that takes no
+// time, some machine on it works at every moment.
 #include <gtest/gtest.h>
 
 #include "client/path/path.h"

@@ -58,7 +58,7 @@ TEST(Head, CarriesPathsThatAreNotUtf8) {
     ServerSetup setup;
     setup.model = "/models/caf\xe9.ply";
     EXPECT_EQ(decode_head(bytes_of(encode_head(setup))), Message(setup));
-    // A cut within a character is no reason to lose the whole line.
+    // A cut within a character must not lose the whole line.
     const Failed failed{std::string(4095, 'x') + "\xc3\xa9"};
     EXPECT_EQ(decode_head(bytes_of(encode_head(failed))), Message(Failed{failed.what.substr(0, 4096)}));
 }
@@ -90,7 +90,7 @@ TEST(Head, ThatIsCutShortOrDamagedIsRefusedOrAMessage) {
                     damaged[random() % damaged.size()] = static_cast<char>(random());
                 const auto back = decode_head(bytes_of(damaged));
                 if (!back) continue;
-                // What is taken for a message can be sent on.
+                // A head that is decoded can be sent on.
                 ASSERT_EQ(decode_head(bytes_of(encode_head(*back))), *back);
             }
         }

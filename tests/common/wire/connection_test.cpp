@@ -87,7 +87,7 @@ TEST_F(ConnectionTest, EndsCleanlyWithBye) {
     a_->connection->finish();
     b_->expect<ModelPart>();
     EXPECT_EQ(b_->ending(), "");
-    EXPECT_FALSE(a_->closed.has_value());  // it asked for it
+    EXPECT_FALSE(a_->closed.has_value());  // its owner asked for it
 }
 
 TEST_F(ConnectionTest, TellsTheOtherEndWhatFailed) {
@@ -103,7 +103,7 @@ TEST_F(ConnectionTest, TellsTheOtherEndWhatItDidWrong) {
     EXPECT_EQ(b_->ending(), "Connect comes too early");
 }
 
-// The other end has more on its way than fits into the sockets' buffers: it must read on to learn why.
+// The other end has more to send than the sockets' buffers hold: it must read on to learn why.
 TEST_F(ConnectionTest, TellsAnEndThatKeepsSendingWhatFailed) {
     for (int round = 0; round < 20; ++round) {
         auto [one, two] = socket_pair(loop_);
@@ -129,7 +129,7 @@ TEST_F(ConnectionTest, ClosesAtOnceWithoutACallback) {
     a_->connection->close();
     EXPECT_EQ(b_->ending(), "closed the connection");
     EXPECT_FALSE(a_->closed.has_value());
-    EXPECT_EQ(a_->connection->offer(Connect{}), 0u);  // goes nowhere, and its owner knows
+    EXPECT_EQ(a_->connection->offer(Connect{}), 0u);  // it goes nowhere, and its owner knows
 }
 
 TEST_F(ConnectionTest, RefusesToSendMoreThanTheOtherEndAccepts) {
@@ -141,7 +141,7 @@ TEST_F(ConnectionTest, RefusesToSendMoreThanTheOtherEndAccepts) {
 class ClocksTest : public ConnectionTest {
   protected:
     ClocksTest() : ConnectionTest({}, &shifted()) {}
-    // Made before the connections and there until they have ended.
+    // It is made before the connections and outlives them.
     static const ShiftedClock& shifted() {
         static const ShiftedClock clock(std::chrono::seconds(1000));
         return clock;
@@ -161,7 +161,7 @@ TEST_F(ConnectionTest, OfOneMachineHasAClockOffsetNearZero) {
     EXPECT_NEAR(std::chrono::duration<double>(a_->connection->clock_offset()).count(), 0, 0.5);
 }
 
-// A program that listens, and what comes to it.
+// A program of ours, and a stranger that connects to it.
 class StrangerTest : public testing::Test {
   protected:
     StrangerTest() : StrangerTest(Connection::Options()) {}
@@ -281,7 +281,7 @@ TEST_F(ImpatientTest, EndsAPeerThatFallsSilentWithinAMessage) {
     EXPECT_THAT(us_->ending(), HasSubstr("silent for 0."));
 }
 
-// It has been told why and does not react: the connection does not wait for ever.
+// The peer knows why and does not react: the connection does not wait for ever.
 TEST_F(ImpatientTest, LetsGoOfAPeerThatDoesNotHangUp) {
     auto [one, two] = socket_pair(loop_);
     RawPeer deaf(loop_, std::move(one));

@@ -30,7 +30,7 @@ pb::Head head_of(const Message& message) {
     return head;
 }
 
-// Fields of a valid message, changed one at a time.
+// Changes fields of a valid message, one at a time.
 template <class Part>
 class Table {
   public:
@@ -262,7 +262,7 @@ TEST_F(RenderFrameLimit, OfExchanges) {
         "outgoing: 1200 pixels, the content has 600");
 }
 
-// Neither drawn nor cleared: there is no memory for it.
+// The server neither draws nor owns these pixels, so it has no memory for them.
 TEST_F(RenderFrameLimit, OfIncomingPixelsIsWhatTheServerDrawsAndOwns) {
     expect(
         [](auto& m) {

@@ -20,7 +20,7 @@ std::string listen_error(Loop& loop, const Address& address) {
     return listener ? "it listens" : listener.error().message;
 }
 
-// What async_connect says in the end: its error's line or "connected".
+// The result of async_connect: its error, or "connected".
 std::string outcome(Loop& loop, const Address& address, Nanoseconds patience) {
     std::string said;
     async_connect(loop.io, address, patience, [&](Result<tcp::socket> socket) {
@@ -62,7 +62,7 @@ TEST(Listener, LetsGoOfItsPortWhenItIsDestroyed) {
     EXPECT_EQ(listen_error(loop, address), "it listens");
 }
 
-// Two are waiting: the second is taken off the socket with the first, before the listener goes.
+// Two connections wait: the second is taken off the socket with the first, before the listener is destroyed.
 TEST(Listener, TakesNobodyInOnceItIsDestroyed) {
     Loop loop;
     std::unique_ptr<Listener> listener;

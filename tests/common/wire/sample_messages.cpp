@@ -14,7 +14,7 @@ class Maker {
     std::uint32_t u32() { return static_cast<std::uint32_t>(random_()); }
     std::uint64_t u64() { return std::uint64_t{u32()} << 32 | u32(); }
     std::uint32_t below(std::uint32_t limit) { return u32() % limit; }
-    // Up to the largest that travels, small ones too.
+    // Times up to the largest that travels, small ones too.
     Nanoseconds time() { return Nanoseconds(static_cast<std::int64_t>(u64() >> (3 + below(61)))); }
     ServerId server() { return server_id(below(kMaxServers)); }
     float number() { return static_cast<float>(static_cast<std::int32_t>(u32())) / 65536.0f; }
@@ -33,7 +33,7 @@ class Maker {
         side(in.y0, in.y1, r.y0, r.y1);
         return r;
     }
-    // Columns of `in` that do not overlap, each cut to some rows.
+    // Disjoint columns of `in`, each cut to some rows.
     Region region(const Rect& in) {
         Region made;
         const std::uint32_t step = 1 + below(static_cast<std::uint32_t>(in.width()));
@@ -72,7 +72,7 @@ class Maker {
     AssembleFrame assemble_frame() {
         AssembleFrame m{u64(), side(), side(), {}, {}};
         for (std::uint8_t& c : m.background) c = static_cast<std::uint8_t>(u32());
-        // Tiles do not overlap: what one server has lies in a column of its own.
+        // Tiles must not overlap: each server has a column.
         const int step = (m.width + 11) / 12;
         for (int i = 0; i * step < m.width; ++i)
             if (below(3) != 0)
@@ -130,7 +130,7 @@ class Maker {
     BodySizes sizes() { return {u32(), u32(), u32()}; }
 
   private:
-    std::mt19937 random_;  // its numbers, unlike the distributions', are the standard's
+    std::mt19937 random_;  // its numbers are the same everywhere, unlike those of distributions
 };
 
 }  // namespace

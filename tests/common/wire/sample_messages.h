@@ -5,11 +5,11 @@
 
 namespace swath::test {
 
-// One of each kind of message, filled with random values that a program may send. The same seed gives the
-// same messages.
+// One message of each kind, with random values that a program may send. The same seed gives the same
+// messages.
 std::vector<Message> sample_messages(std::uint32_t seed);
 
-// A frame's task for server 1 of 3 in which every field has something.
+// The task of server 1 of 3 for a frame, with something in every field.
 RenderFrame sample_render_frame();
 
 }  // namespace swath::test

@@ -14,7 +14,7 @@ using namespace test;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// A session that writes down what happens to it.
+// A session that logs all calls.
 class FakeSession final : public Session {
   public:
     FakeSession(std::vector<std::string>& log, std::shared_ptr<Connection> client)

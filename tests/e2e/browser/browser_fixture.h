@@ -9,19 +9,20 @@
 
 namespace swath::test {
 
-// A browser and the programs. Skips where there is no browser. At the end of a test nothing may have been
-// said on the console as an error, and no process may be left; a test that failed leaves a screenshot.
+// A browser and the programs. Skips if there is no browser. At the end of a test the console may have no
+// error, and no process may be left; a failed test leaves a screenshot.
 class BrowserTest : public EndToEnd {
   protected:
     void SetUp() override;
     void TearDown() override;
 
     Browser& browser() { return *browser_; }
-    // What TearDown does first; for whoever ends what the page is connected with.
+    // Ends the browser, as TearDown does first; for tests that end the page's program.
     void close_browser();
-    // Keeps what the viewport shows as NAME.png in the build tree's browser-shots, and prints its path.
+    // Keeps the viewport as NAME.png in the build tree's browser-shots, and prints its path.
     void keep_screenshot(const std::string& name);
-    // Of now on console errors with these words are no failure: those of a connection that a test breaks.
+    // From now on console errors with these words are no failure: a test that breaks a connection causes
+    // some.
     void allow_console_errors(const std::string& words) { allowed_errors_.push_back(words); }
 
   private:

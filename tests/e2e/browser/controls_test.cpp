@@ -1,5 +1,4 @@
-// What a person can change while frames run: each takes effect without a restart and leaves the picture
-// exact.
+// A person's changes while frames run: each takes effect without a restart and leaves the picture exact.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -17,7 +16,7 @@ class LiveControls : public LivePage {
         return browser().evaluate("swath.session.choices[argument].map(String)", of);
     }
     int frame() { return drawn().frame; }
-    // How many pixels of an overlay are painted.
+    // The number of painted pixels of an overlay.
     int painted(const std::string& id) {
         return browser().evaluate(
             "(() => { const c = document.getElementById(argument); if (!c.width || !c.height) return 0; "
@@ -120,7 +119,7 @@ TEST_F(LiveControls, PausedItDrawsAFrameAStep) {
     wait_until("swath.state.paused");
     const int paused_at = frame();
     drag_picture(80, 10);
-    // The client has heard of it.
+    // The client has read the wish.
     wait_until(
         "swath.wish.camera.some((n, i) => n !== swath.plan(0).camera[i]) && swath.state.wish === "
         "swath.wish.id");
@@ -150,7 +149,7 @@ TEST_F(LiveControls, APathPlaysUntilAPersonSteers) {
 
 TEST_F(LiveControls, EachOverlayIsPaintedAndTakenAway) {
     start_view({}, {"--local", "3"});
-    choose("algorithm", "mahd");  // which draws objects more than once
+    choose("algorithm", "mahd");  // it draws objects more than once
     wait_for_rest();
     EXPECT_EQ(painted("overlay-0"), 0);
     for (const char* layer : {"tiles", "groups", "boxes", "overlap"}) {
@@ -160,7 +159,7 @@ TEST_F(LiveControls, EachOverlayIsPaintedAndTakenAway) {
         press_down(fmt::format("show-{}", layer), false);
         EXPECT_EQ(painted("overlay-0"), 0) << layer;
     }
-    choose("algorithm", "hybrid");  // which swaps pixels
+    choose("algorithm", "hybrid");  // it swaps pixels
     wait_for_rest();
     press_down("show-swaths", true);
     EXPECT_GT(painted("overlay-0"), 100);

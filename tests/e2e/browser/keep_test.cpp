@@ -1,4 +1,4 @@
-// What a person takes along from the page.
+// Downloads from the page.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ class LiveKeep : public LivePage {
         browser().devtools("Browser.setDownloadBehavior",
                            {{"behavior", "allow"}, {"downloadPath", downloads_}});
     }
-    // The file that comes of a click. One that is not whole yet has another name.
+    // The file that a click saves. A file that is not complete has another name.
     std::filesystem::path saved_by(const std::string& button, const std::string& extension) {
         browser().click("#" + button);
         const auto deadline = std::chrono::steady_clock::now() + kPatience;

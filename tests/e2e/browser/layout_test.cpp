@@ -1,4 +1,4 @@
-// How the page looks and whom it lets in: sizes, colour schemes, keys, accessibility.
+// The page's look for everybody: sizes, colour schemes, keys, accessibility.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -24,7 +24,7 @@ const std::vector<Look> kLooks{
     {"PhoneDark", {390, 844, 2, true, true}}, {"PhoneLight", {390, 844, 2, false, true}},
 };
 
-// What is wrong with the layout, as sentences. Runs in the page.
+// Finds faults of the layout, as sentences. Runs in the page.
 constexpr const char* kLayoutFaults = R"js((() => {
     const faults = [];
     const name = (e) => `<${e.tagName.toLowerCase()}${e.id ? ` id=${e.id}` : ''}> ` +
@@ -91,7 +91,7 @@ constexpr const char* kLayoutFaults = R"js((() => {
 
 class LiveLayout : public LivePage, public testing::WithParamInterface<Look> {
   protected:
-    // With every part of the page filled: frames, predictions, a measured speed-up.
+    // Fills every part of the page: frames, predictions, a measured speed-up.
     void start_full_view() {
         start_view(GetParam().viewport, {"--local", "3"});
         browser().click("#measure");

@@ -7,7 +7,7 @@
 namespace swath::test {
 namespace {
 
-// The newest wish counts, nothing is being changed, and what is drawn is what counts, without loss.
+// True when the state has the newest wish, nothing is being changed, and the picture shows that state as PNG.
 constexpr const char* kAtRest = R"js((() => {
     const state = swath.state;
     if (!state || state.busy) return false;
@@ -22,7 +22,7 @@ constexpr const char* kAtRest = R"js((() => {
     });
 })())js";
 
-// What a person would read off the page, for messages.
+// The page's main facts, for messages.
 constexpr const char* kWhatIsThere = R"js(JSON.stringify({
     status: document.getElementById('status')?.textContent,
     picture: {...document.getElementById('picture-0')?.dataset},
@@ -78,7 +78,7 @@ void LivePage::wait_until(const std::string& condition) {
 }
 
 void LivePage::wait_for_rest() {
-    // The page sends what it was asked for before it draws its next frame.
+    // The page sends its wishes before it draws its next animation frame.
     browser().evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))");
     wait_until(kAtRest);
 }

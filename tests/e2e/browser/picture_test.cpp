@@ -14,7 +14,7 @@ using nlohmann::json;
 class LivePicture : public LivePage {
   protected:
     json camera() { return drawn().plan.at("camera"); }
-    // The picture at rest after `act`; fails when it is still the one before.
+    // The camera at rest after `act`; fails if it is still the one before.
     template <class Act>
     json camera_after(const char* what, const Act& act) {
         const json before = camera();
@@ -115,7 +115,7 @@ TEST_F(LivePicture, IsExactAtAnySizeAndPixelRatio) {
         browser().set_viewport(viewport);
         wait_for_window_size();
         const Drawn fitting = drawn();
-        // Pixel for pixel: not scaled by the browser.
+        // Pixel for pixel: the browser does not scale.
         const json shown = browser().evaluate(
             "(() => { const box = document.getElementById('picture-0').getBoundingClientRect(); return "
             "[box.width "
@@ -174,7 +174,7 @@ TEST_F(LivePicture, IsLosslessWithinHalfASecondOfRest) {
         took_ms.push_back(browser().evaluate("timing.lossless - timing.input").get<double>());
         EXPECT_GT(took_ms.back(), 0);
     }
-    // The middle one of five, because other programs take the processor now and then.
+    // The median of five, because other programs take the processor now and then.
     std::sort(took_ms.begin(), took_ms.end());
     EXPECT_LT(took_ms[2], 500 * kSlowdown) << testing::PrintToString(took_ms);
 }

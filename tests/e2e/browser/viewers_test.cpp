@@ -19,7 +19,7 @@ class LiveViewers : public LivePage {
         cluster_.reset();
         LivePage::TearDown();
     }
-    // A display with a page at this port, and servers, as somebody starts them by hand.
+    // Starts a display with a page at this port, and servers, as somebody would by hand.
     void start_cluster(const std::string& view = "127.0.0.1:0") {
         cluster_ = std::make_unique<RemoteCluster>(
             [&](const std::string& program, const Arguments& arguments) {
@@ -52,7 +52,7 @@ TEST_F(LiveViewers, ServersThatJoinAndLeaveAreShown) {
     wait_for_rest();
     EXPECT_EQ(text_of("servers-of"), "1 of 1");
     EXPECT_EQ(drawn().plan.at("servers"), 1);
-    // The camera stays where it is.
+    // The camera stays in place.
     EXPECT_EQ(camera(), steered);
     expect_exact();
     EXPECT_EQ(browser().evaluate("swath.leads"), true);
@@ -76,7 +76,7 @@ TEST_F(LiveViewers, OneSteersAndTheOtherFollowsUntilItTakesOver) {
     EXPECT_EQ(browser().evaluate("swath.leads"), false);
     EXPECT_THAT(text_of("status"), HasSubstr("you follow"));
 
-    // Who follows sees what the other does, and cannot steer.
+    // A follower sees the leader's changes, and cannot steer.
     browser().use_window(first);
     drag_picture(100, 50);
     wait_for_rest();
@@ -91,7 +91,7 @@ TEST_F(LiveViewers, OneSteersAndTheOtherFollowsUntilItTakesOver) {
     EXPECT_THAT(text_of("controls-why"), HasSubstr("steers"));
     keep_screenshot("follower");
 
-    // Taking over leaves the view as it is, at the size of the other window.
+    // To take over leaves the view as it is, at the size of the other window.
     browser().click("#lead");
     wait_until("swath.leads && swath.wish");
     wait_for_window_size();
@@ -106,7 +106,7 @@ TEST_F(LiveViewers, OneSteersAndTheOtherFollowsUntilItTakesOver) {
     wait_for_rest();
     EXPECT_TRUE(drawn().bytes == taken_over);
 
-    // When the leader goes, who is left steers.
+    // When the leader leaves, the other viewer steers.
     browser().use_window(second);
     browser().close_window();
     browser().use_window(first);
@@ -133,7 +133,7 @@ TEST_F(LiveViewers, ThePageWaitsForAClientAndForTheNextOne) {
 }
 
 TEST_F(LiveViewers, ThePageSaysThatItsConnectionIsLostAndGetsItBack) {
-    // What the browser says by itself while nobody listens.
+    // The browser's own messages while nobody listens.
     allow_console_errors("WebSocket connection to");
     allow_console_errors("ERR_CONNECTION_REFUSED");
     start_cluster();

@@ -32,7 +32,7 @@ std::optional<std::filesystem::path> on_path(const std::string& program) {
     return std::nullopt;
 }
 
-// All that a response's head promises. The driver does not close its end.
+// True if the response is as long as its head says. The driver does not close its end.
 bool is_whole_response(std::string_view response) {
     static constexpr std::string_view kLength = "Content-Length:";
     const auto head = response.find("\r\n\r\n");
@@ -104,7 +104,7 @@ Browser::Browser(const std::filesystem::path& folder)
 }
 
 Browser::~Browser() {
-    // The browser's crash handlers leave its family, so they are looked for among all of ours.
+    // The browser's crash handlers leave its family, so looks among all of our descendants.
     std::vector<pid_t> family;
     for (const pid_t pid : living_descendants(::getpid()))
         if (program_of(pid).starts_with("chrom")) family.push_back(pid);
@@ -112,7 +112,7 @@ Browser::~Browser() {
     try {
         if (!session_.empty()) command("DELETE", "");
     } catch (const std::exception&) {
-        // It is killed below; its end is checked by who looks for what is left.
+        // It is killed below. The fixture checks that nothing is left.
     }
     all_end_within(family, kPatience);
 }
@@ -212,7 +212,7 @@ void Browser::double_click(Point at) {
 }
 
 void Browser::drag(Point from, Point to, const std::string& modifier_key) {
-    // Sources act tick by tick: the key goes down before the button.
+    // All sources act in steps: the key goes down before the button.
     json actions = stroke(from, to);
     json sources = json::array();
     if (!modifier_key.empty()) {

@@ -9,7 +9,7 @@
 
 namespace swath::test {
 
-// What a page is shown on. Sides are in CSS pixels.
+// The screen of a page. Sides are in CSS pixels.
 struct Viewport {
     int width = 1280;
     int height = 800;
@@ -18,13 +18,13 @@ struct Viewport {
     bool touch = false;  // a finger in place of a mouse
 };
 
-// In CSS pixels from the viewport's upper left corner.
+// CSS pixels from the viewport's upper left corner.
 struct Point {
     double x = 0;
     double y = 0;
 };
 
-// Keys that have no character, as WebDriver names them.
+// Keys without a character, by their WebDriver numbers.
 inline const std::string kTabKey = "\uE004";
 inline const std::string kEnterKey = "\uE007";
 inline const std::string kShiftKey = "\uE008";
@@ -36,50 +36,50 @@ inline const std::string kRightKey = "\uE014";
 inline const std::string kDownKey = "\uE015";
 
 // A headless Chromium with a new profile, driven through chromedriver by the WebDriver protocol; at most one
-// at a time. What is said of "the page" is about the window in use. Not thread-safe. Functions throw
-// std::runtime_error with the driver's words when something fails or takes too long. The destructor ends the
-// browser and the driver and waits until nothing of them is left.
+// at a time. "The page" is that of the window in use. Functions throw std::runtime_error with the driver's
+// words when something fails or takes too long. The destructor ends the browser and the driver and waits
+// until nothing of them is left. Not thread-safe.
 class Browser {
   public:
-    // What is not installed, for a message; empty when a browser can be started.
+    // Names missing programs, for a message; empty if a browser can be started.
     static std::string missing();
-    // The profile is made in `folder`, which exists.
+    // `folder` must exist and gets the profile.
     explicit Browser(const std::filesystem::path& folder);
     ~Browser();
     Browser(const Browser&) = delete;
     Browser& operator=(const Browser&) = delete;
 
     std::string window();
-    std::string open_window();  // and use it
+    std::string open_window();  // and uses it
     void use_window(const std::string& handle);
-    void close_window();                          // then another is to be used
-    void set_viewport(const Viewport& viewport);  // of the window in use
+    void close_window();                          // then use another
+    void set_viewport(const Viewport& viewport);  // for the window in use
     void open(const std::string& url);
 
     // The value of a JavaScript expression in the page, awaited if it is a promise; `await` and
     // `argument` may be used in it.
     nlohmann::json evaluate(const std::string& expression, const nlohmann::json& argument = nullptr);
-    // Until the expression is true. One that throws is not true yet.
+    // Waits until the expression is true. One that throws is not true yet.
     void wait_until(const std::string& condition, std::chrono::milliseconds limit);
 
-    // Scrolls there and clicks; fails when something else lies over it.
+    // Scrolls there and clicks; fails if something else lies over it.
     void click(const std::string& selector);
     void double_click(Point at);
     void move_mouse(Point to);
     void drag(Point from, Point to, const std::string& modifier_key = {});
     void turn_wheel(Point at, int pixels);
     void touch_drag(Point from, Point to);
-    // Two fingers, at first `begin` pixels right and left of `centre` and in the end `end`.
+    // Two fingers move from `begin` pixels right and left of `centre` to `end`.
     void pinch(Point centre, double begin, double end);
-    // To what has the focus, with another key held down.
+    // Presses a key for the focused element, while another is held down.
     void press(const std::string& key, const std::string& modifier_key = {});
 
-    // A PNG of what the viewport shows.
+    // Saves the viewport as a PNG.
     void save_screenshot(const std::filesystem::path& file);
-    // What was said on the console as an error, uncaught exceptions and failed loads included, in all windows
-    // since the last call.
+    // Takes the console's errors, with uncaught exceptions and failed loads, of all windows since the last
+    // call.
     std::vector<std::string> take_console_errors();
-    // What the page says as a method of the DevTools protocol.
+    // Calls a method of the DevTools protocol.
     nlohmann::json devtools(const std::string& method, const nlohmann::json& parameters);
 
   private:
@@ -90,10 +90,10 @@ class Browser {
     void act(const nlohmann::json& sources);
 
     Process driver_;
-    std::string address_;  // of the driver
+    std::string address_;  // the driver's
     std::string session_;
 };
 
-std::string decode_base64(std::string_view text);  // throws std::runtime_error for what is none
+std::string decode_base64(std::string_view text);  // throws std::runtime_error for other text
 
 }  // namespace swath::test

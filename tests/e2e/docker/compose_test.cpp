@@ -1,4 +1,4 @@
-// What docker/README.md promises, with a real engine. One image and a few clusters serve all tests.
+// The promises of docker/README.md, with a real engine. One image and a few clusters serve all tests.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -21,17 +21,17 @@ using testing::SizeIs;
 
 constexpr const char* kModel = "builtin:knot:50000";
 constexpr const char* kSize = "320x240";
-constexpr auto kEnding = 2000ms;  // what a program may take after SIGTERM
+constexpr auto kEnding = 2000ms;  // limit after SIGTERM
 constexpr auto kPatience = 60s;
 
-// Built when the first test wants it, removed when all are done.
+// The first test builds it; it is removed after the last.
 std::optional<Image> image;
 class Images : public testing::Environment {
     void TearDown() override { image.reset(); }
 };
 [[maybe_unused]] const auto* const kImages = testing::AddGlobalTestEnvironment(new Images);
 
-// Whether it becomes true in time.
+// True if the condition becomes true in time.
 bool soon(const std::function<bool()>& right) {
     const auto end = std::chrono::steady_clock::now() + kPatience;
     while (!right()) {
@@ -56,7 +56,7 @@ class Compose : public testing::Test {
         cluster_->up(servers, client);
         return *cluster_;
     }
-    // A viewer of the client's run, as soon as the page answers and somebody runs.
+    // Connects a viewer to the client's run, once the page answers and a run has begun.
     LiveViewer viewer() {
         const auto address = *parse_address(cluster_->view());
         soon([&] { return http_get(address, "/").status == 200; });
@@ -64,12 +64,12 @@ class Compose : public testing::Test {
         viewer.note("audience", [](const Json& note) { return note["session"] == true; });
         return viewer;
     }
-    // The viewer's picture of these servers, which is that of one process in the same image.
+    // Expects that the viewer's picture by so many servers is that of one process in the same image.
     static void expect_exact(LiveViewer& viewer, std::size_t servers) {
         const auto session =
             viewer.note("session", [&](const Json& note) { return note["servers"].size() == servers; });
         ASSERT_TRUE(session.is_object()) << "never " << servers << " servers";
-        // All wish the same, which is not drawn again for every one of them.
+        // All viewers wish the same, which is not drawn again for each.
         viewer.wish(kView);
         const auto still = viewer.picture([&](const LiveViewer::Picture& p) {
             const Json& plan = p.header["plan"];
@@ -82,7 +82,7 @@ class Compose : public testing::Test {
             expected = single("echo '" + viewer.camera_line() + "' >/tmp/camera", "--path /tmp/camera");
         EXPECT_TRUE(still.file == expected) << servers << " servers";
     }
-    // The pictures, one after another, that a single process in the image makes.
+    // The pictures of a single process in the image, one after another.
     static std::string single(const std::string& before, const std::string& options) {
         const Finished finished = docker(
             {"run", "--rm", "-e", "LP_NUM_THREADS=0", image->name(), "sh", "-ec",
@@ -92,7 +92,7 @@ class Compose : public testing::Test {
         EXPECT_THAT(finished.out, HasSubstr("PNG"));
         return finished.out;
     }
-    // `docker stop`, which sends SIGTERM: how it ended, and that it was quick.
+    // Ends a container as `docker stop` does, with SIGTERM, and expects that it ends well and soon.
     static void expect_clean_end(const std::string& container) {
         const auto begin = std::chrono::steady_clock::now();
         docker_says({"kill", "-s", "TERM", container});
@@ -128,8 +128,8 @@ TEST_F(Compose, PicturesStayExactWhileServersComeAndGo) {
 
 TEST_F(Compose, BatchRunOfThreeServersIsExact) {
     up(3, false);
-    // A run begins with the servers that have a name by then, and names lag behind containers; some engines
-    // stall for seconds when a name is asked for while a container starts.
+    // A run begins with the servers whose names are known by then, and names lag behind containers; some
+    // engines stall for seconds when a name is asked for while a container starts.
     const Finished finished = cluster_->compose(
         {"run", "--rm", "-T", "--no-deps", "client", "sh", "-ec",
          fmt::format("sleep 2\n"
@@ -179,8 +179,7 @@ TEST_F(Compose, DisplayThatIsStartedAnewGetsItsClientBack) {
     expect_exact(page, 2);
 }
 
-// compose.paper.yaml: whoever can shape has no other right left, and what is sent takes the time that it
-// should.
+// compose.paper.yaml: the program that shapes has no other right, and data takes the time that it should.
 TEST_F(Compose, PapersNetworkIsThatSlowAndItsProgramsHaveNoRights) {
     up(2, true, {"compose.yaml", "compose.paper.yaml"});
     LiveViewer page = viewer();
@@ -205,7 +204,7 @@ TEST_F(Compose, ImageIsSmall) {
         std::from_chars(text.data(), text.data() + text.size(), number);
         return number;
     };
-    // Bases differ: with the official one, of 75 MB, it is to stay under 350 MB.
+    // Bases differ: with the official one, of 75 MB, the image is to stay under 350 MB.
     EXPECT_LT(bytes(image->name()) - bytes("debian:bookworm-slim"), 275e6);
 }
 

@@ -43,7 +43,7 @@ std::vector<std::string> lines(const std::string& text) {
 
 bool succeeds(const Arguments& command) { return run(command, {}, std::chrono::seconds(30)).exit_code == 0; }
 
-// `docker compose` where there is one, which is Compose v2, else docker-compose; empty: neither.
+// `docker compose` (Compose v2) if it is there, else docker-compose; empty: neither.
 const Arguments& compose_command() {
     static const Arguments command = [] {
         for (const Arguments& candidate : {Arguments{"docker", "compose"}, Arguments{"docker-compose"}}) {
@@ -56,8 +56,8 @@ const Arguments& compose_command() {
     return command;
 }
 
-// One that nobody listens on. Somebody could take it before we do, which fails the test and never passes it
-// wrongly.
+// A port on which nobody listens. Another program could take it first, which fails the test but never makes
+// it pass wrongly.
 int free_port() {
     const int listener = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
@@ -102,7 +102,7 @@ Image::Image() {
         return;
     }
     name_ = fmt::format("swath-test:{}", ::getpid());
-    // The builder's own lines, because compiling takes minutes.
+    // Shows the builder's own lines, because compiling takes minutes.
     const std::string command =
         fmt::format("docker build -f '{0}/docker/Dockerfile' -t {1} '{0}'", kSource, name_);
     std::cout << command << std::endl;

@@ -10,25 +10,23 @@ namespace swath::test {
 
 using Arguments = std::vector<std::string>;
 
-// The command `docker` and what answers it. Every wait has a limit; nothing here expects anything.
+// The command `docker` and its engine. Every wait has a limit; nothing here is an expectation of a test.
 
-// Empty, or why there is no engine to test with: no command, none that answers, or no compose.
+// Empty, or the reason why there is no engine to test with: no command, no answer, or no compose.
 const std::string& no_engine();
 
 // Runs `docker ARGUMENTS...`.
 Finished docker(const Arguments& arguments, std::chrono::milliseconds limit = std::chrono::seconds(60));
-// The same, as its standard output without the white space around it; throws std::runtime_error when it
-// fails.
+// Runs it and returns standard output without white space around it; throws std::runtime_error when it fails.
 std::string docker_says(const Arguments& arguments);
 std::vector<std::string> docker_lines(const Arguments& arguments);
 
-// The image under test. $SWATH_IMAGE names one that is there already; otherwise it is built from the working
-// tree, under a name of its own.
+// The image under test: $SWATH_IMAGE, or one that is built from the working tree under a name of its own.
 class Image {
   public:
-    // Builds, with the builder's output on ours. Throws std::runtime_error when it fails.
+    // Builds, and shows the builder's output. Throws std::runtime_error when it fails.
     Image();
-    ~Image();  // removes what it built, but for the build cache
+    ~Image();  // removes the image that it built, but not the build cache
     Image(const Image&) = delete;
     Image& operator=(const Image&) = delete;
     const std::string& name() const { return name_; }
@@ -38,14 +36,13 @@ class Image {
     bool ours_ = false;
 };
 
-// A compose project of docker/compose.yaml with a name and a port of its own. It ends with the object,
-// whatever has happened to it.
+// A compose project of docker/compose.yaml with a name and a port of its own. It always ends with the object.
 class Cluster {
   public:
     struct Options {
         std::string model;
         std::string size;
-        std::vector<std::string> files{"compose.yaml"};  // of docker/
+        std::vector<std::string> files{"compose.yaml"};  // in docker/
     };
     Cluster(const Image& image, const Options& options);
     ~Cluster();
@@ -55,17 +52,17 @@ class Cluster {
     // Runs `docker compose ARGUMENTS...`, or docker-compose, on the project.
     Finished compose(const Arguments& arguments,
                      std::chrono::milliseconds limit = std::chrono::seconds(120)) const;
-    // `up -d` with this many servers. With `client` off only servers and display. Throws when it fails.
+    // Runs `up -d` with this many servers; without `client` only servers and display. Throws when it fails.
     void up(int servers, bool client = true) const;
     void down() const;
 
-    // The service's containers that run.
+    // Running containers of the service.
     std::vector<std::string> running(const std::string& service) const;
-    // All that the project has: containers, networks, volumes.
+    // All containers, networks and volumes of the project.
     std::vector<std::string> left() const;
     std::string logs() const;
 
-    // "127.0.0.1:PORT", where its page is published.
+    // "127.0.0.1:PORT", at which its page is published.
     const std::string& view() const { return view_; }
 
   private:

@@ -1,4 +1,4 @@
-// Every setting of the compose files is in .env and in the README, with the default that it really has.
+// Every setting of the compose files is in .env and in the README, with its real default.
 #include <gmock/gmock.h>
 
 #include <fstream>

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kBetweenQuestions(100);
 constexpr std::chrono::seconds kDaemonEnds(10);
 
-// Where script/bootstrap --schedulers unpacks Debian's packages.
+// script/bootstrap --schedulers unpacks Debian's packages here.
 const fs::path& unpacked() {
     static const fs::path folder = SWATH_SLURM;
     return folder;
@@ -34,11 +34,11 @@ fs::path libraries() { return unpacked() / "usr/lib/x86_64-linux-gnu"; }
 
 std::optional<fs::path> find(const std::string& program) {
     const char* path = std::getenv("PATH");
-    // Daemons are where a user's PATH often does not reach.
+    // A user's PATH often lacks the folders of daemons.
     std::istringstream folders(fmt::format("{0}/usr/bin:{0}/usr/sbin:{1}:/usr/sbin:/sbin",
                                            unpacked().string(), path == nullptr ? "" : path));
     for (std::string folder; std::getline(folders, folder, ':');)
-        // Debian's daemons have a second name, to which alternatives point where they are installed.
+        // Debian's daemons have a second name, to which alternatives point if they are installed.
         for (const std::string& name : {program, program + "-wlm"})
             if (::access((fs::path(folder) / name).c_str(), X_OK) == 0) return fs::path(folder) / name;
     return {};
@@ -58,7 +58,7 @@ std::vector<std::string> with_slurm(std::vector<std::string> environment, const 
 std::vector<int> free_ports(std::size_t count) {
     std::vector<int> sockets;
     std::vector<int> ports;
-    // All are held until all are known, so that none comes twice.
+    // Holds all ports until all are known, so that none comes twice.
     while (sockets.size() < count) {
         sockets.push_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
         sockaddr_in address{};
@@ -156,7 +156,7 @@ SlurmCluster::SlurmCluster(const fs::path& folder, int nodes) : configuration_(f
 }
 
 SlurmCluster::~SlurmCluster() {
-    // Jobs first, then the nodes, then who they talk to.
+    // Ends jobs first, then the nodes, then the daemons that they talk to.
     run("scancel", {fmt::format("--user={}", ::getuid())});
     eventually([&] { return run("squeue", {"--noheader"}).out.empty(); }, kDaemonEnds);
     std::reverse(daemons_.begin(), daemons_.end());
@@ -168,7 +168,7 @@ SlurmCluster::~SlurmCluster() {
             ADD_FAILURE() << error.what();
         }
     }
-    // slurmd leaves its steps to init, for which the test stands.
+    // slurmd leaves its steps to init, whose part the test plays.
     while (::waitpid(-1, nullptr, WNOHANG) > 0) {
     }
 }

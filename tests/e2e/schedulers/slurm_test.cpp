@@ -51,7 +51,7 @@ class Slurm : public EndToEnd {
     std::string output(const std::string& job, const std::string& what = ".out") const {
         return contents(submitted_from_ / ("swath-" + job + what));
     }
-    // Until the client has reached all and draws.
+    // Waits until the client has reached all servers and draws.
     bool draws(const std::string& job) const {
         return eventually([&] { return output(job).find(" are ready") != std::string::npos; });
     }
@@ -143,7 +143,7 @@ TEST_F(Slurm, ADisplayThatDiesFailsTheJobWithALineThatNamesIt) {
 }
 
 TEST_F(Slurm, WhatCannotBeDoneFailsTheJobWithOneClearLine) {
-    // A node that lacks what the first one has.
+    // One node lacks the server that the first one has.
     const fs::path some = files_.path_of("some");
     fs::create_directories(some);
     for (const char* program : {"swath-client", "swath-display"})
@@ -174,7 +174,7 @@ TEST_F(Slurm, TheLivePageIsReachedThroughATunnelWithItsToken) {
         const auto begin = out.find(text) + text.size();
         return out.substr(begin, out.find(end, begin) - begin);
     };
-    // As the tunnel does: to the node's address, with the Host that the person's browser sends.
+    // Asks as the tunnel does: at the node's address, with the Host that the person's browser sends.
     const auto page = parse_address(after("ssh -L 8080:", ' '));
     ASSERT_TRUE(page.has_value()) << out;
     const std::string path = after("then open:  http://127.0.0.1:8080", '\n');
@@ -185,7 +185,7 @@ TEST_F(Slurm, TheLivePageIsReachedThroughATunnelWithItsToken) {
     };
     EXPECT_EQ(get(path), 200) << path;
     EXPECT_EQ(get("/"), 403);
-    // The token is for one's own eyes.
+    // Nobody else may read the token.
     for (const char* file : {".out", "-display.log"}) {
         struct stat status {};
         ASSERT_EQ(::stat((submitted_from_ / ("swath-" + job + file)).c_str(), &status), 0);

@@ -4,11 +4,11 @@
 
 namespace swath::test {
 
-inline constexpr double kNothing = 1e-6;  // seconds that free_hardware() may take for a frame
+inline constexpr double kNothing = 1e-6;  // upper limit of a frame's seconds on free_hardware()
 
-// Machines and a network that take no time worth counting.
+// Machines and a network that take almost no time.
 inline Hardware free_hardware() {
-    constexpr double kFast = 1e15;  // a second, whatever it is
+    constexpr double kFast = 1e15;  // per second, for all units
     Hardware hardware;
     hardware.name = "free";
     hardware.network.bytes_per_s = kFast;
@@ -23,7 +23,7 @@ inline Hardware free_hardware() {
     return hardware;
 }
 
-// At (0, 0, 4); sees about [-1, 1] cubed.
+// Lies at (0, 0, 4) and sees about [-1, 1] cubed.
 inline Camera front_camera() {
     Camera camera;
     camera.eye = {0, 0, 4};

@@ -24,7 +24,7 @@ ClusterScenario scenario_of(const std::vector<Object>& objects, const std::vecto
     return {objects, cameras, kWidth, kHeight, algorithm, servers, in_flight, hardware, false};
 }
 
-// The screen's part that a single object covers.
+// The number of pixels of a single object's box.
 double pixels_of(const Object& object) {
     const View view = make_view(front_camera(), kWidth, kHeight);
     return static_cast<double>(project(std::vector{object}, view, Accounting::kCluster)[0].box.area());
@@ -61,8 +61,8 @@ TEST(SimulatedCluster, AddsUpEveryStageOfAFrameThatIsAlone) {
     hardware.network.tile_bytes_per_pixel = 4;
     hardware.display.colour = {11e-3, 1e6, 2e6};
     const auto costs = simulate(scenario_of(objects, cameras, hardware, 1, 1));
-    // The server's task (304 bytes) shares the client's link with the display's, the tile that of the server
-    // with the report (300 bytes): each takes half of it while both flow.
+    // The server's task (304 bytes) shares the client's link with the display's, and the tile shares the
+    // server's link with the report (300 bytes): each takes half of it while both flow.
     const double latency_s =
         5e-3 + (2 * 304e-6 + 7e-3) + 50e-3 + (4 * pixels / 1e6 + 300e-6 + 7e-3) + (11e-3 + pixels / 2e6);
     EXPECT_NEAR(costs.latency_s, latency_s, kNothing);
@@ -82,7 +82,8 @@ TEST(SimulatedCluster, LetsServersOfHostCompositingDrawWhileTheyMerge) {
     EXPECT_NEAR(simulate(scenario_of(objects, cameras, hardware, 1, 1)).frame_s, 70e-3, kNothing);
     const auto costs = simulate(scenario_of(objects, cameras, hardware, 1, 2));
     EXPECT_NEAR(costs.frame_s, 50e-3, kNothing);
-    // 70 and 120; then a frame begins 100 before its picture, with the picture of the last but one.
+    // The first two take 70 and 120 ms; the others begin 100 ms before their picture, with the picture of the
+    // last but one.
     EXPECT_NEAR(costs.latency_s, (70e-3 + 120e-3 + 6 * 100e-3) / 8, kNothing);
     hardware.server.compositing = Compositing::kGraphics;
     EXPECT_NEAR(simulate(scenario_of(objects, cameras, hardware, 1, 2)).frame_s, 50e-3, kNothing);
@@ -91,7 +92,7 @@ TEST(SimulatedCluster, LetsServersOfHostCompositingDrawWhileTheyMerge) {
 }
 
 TEST(SimulatedCluster, LetsEachServerWaitForTheOthersSwath) {
-    // Two objects that overlap on the screen, the second with more to draw.
+    // Two objects that overlap on the screen; the second has more to draw.
     const std::vector<Object> objects{cube({-0.2f, 0, 0}, 0.3f, 30), cube({0.2f, 0, 0}, 0.3f, 50)};
     const std::vector<Camera> cameras(3, front_camera());
     Hardware hardware = free_hardware();
@@ -106,7 +107,7 @@ TEST(SimulatedCluster, LetsEachServerWaitForTheOthersSwath) {
     ASSERT_EQ(work[1].outgoing.size(), 1u);
     ASSERT_GT(work[0].outgoing[0].merge_s, 4e-3);
 
-    // A server merges when it has sent its own and the other's has come.
+    // A server composites when it has sent its own swath and the other's has come.
     const double sent[] = {work[0].render_s + work[0].outgoing[0].send_s,
                            work[1].render_s + work[1].outgoing[0].send_s};
     const double both = std::max(sent[0], sent[1]);
@@ -128,7 +129,7 @@ TEST(SimulatedCluster, IsLimitedByTheDisplayWhereThatIsSlowest) {
     EXPECT_EQ(busiest(costs.use).resource, "display");
 }
 
-// Three frames begin together and their pictures come in a burst, then all wait for the network.
+// Three frames begin together, their pictures come in a burst, and then all wait for the network.
 TEST(SimulatedCluster, FramesTakeTheSameHoweverManyThereAre) {
     const std::vector<Object> objects{cube({0, 0, 0}, 0.3f, 50)};
     Hardware hardware = free_hardware();
@@ -187,7 +188,7 @@ TEST(SimulatedCluster, ShowsBackgroundWhereNothingIsVisible) {
 }
 
 TEST(SimulatedCluster, ReportsHowOftenTrianglesAreDrawn) {
-    // In the middle of the screen, where two tiles meet.
+    // It lies in the middle of the screen, where two tiles meet.
     const std::vector<Object> objects{cube({0, 0, 0}, 0.3f, 50)};
     const std::vector<Camera> cameras(1, front_camera());
     const Hardware hardware = free_hardware();

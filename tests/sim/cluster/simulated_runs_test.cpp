@@ -1,4 +1,4 @@
-// What holds for every run, whatever the scene.
+// Properties of every run, whatever the scene.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ Hardware on_host() {
     return hardware;
 }
 
-// The front, from within, and away from everything.
+// From the front, from within, and away from everything.
 std::vector<Camera> unlike_cameras() {
     std::vector<Camera> cameras(3, test::front_camera());
     cameras[1].eye = {0.1f, 0, 0};
@@ -61,7 +61,7 @@ void expect_sane(const ClusterRunCosts& costs) {
         EXPECT_TRUE(use.share >= 0 && use.share <= 1 + 1e-9) << use.resource << " " << use.share;
 }
 
-// A server whose host composites has a thread for that beside the one that draws.
+// With compositing on the host a server composites on another thread than it draws.
 std::string station_of(const std::string& machine, Phase phase, Compositing compositing) {
     const bool draws = phase == Phase::kRender || phase == Phase::kPixelRead;
     return is_server(machine) && compositing == Compositing::kHost ? machine + (draws ? " draws" : " merges")
@@ -83,7 +83,7 @@ void expect_one_job_at_a_time(const std::vector<FrameTimeline>& frames, Composit
     }
 }
 
-// When the last job of the run ended, in seconds.
+// The end of the run's last job, in seconds.
 double end_of(const std::vector<FrameTimeline>& frames) {
     Nanoseconds end{0};
     for (const FrameTimeline& frame : frames)
@@ -94,7 +94,7 @@ double end_of(const std::vector<FrameTimeline>& frames) {
 
 class SimulatedRun : public testing::TestWithParam<std::tuple<Algorithm, std::size_t>> {};
 
-// A decision object that complained would throw.
+// If a decision object complained, this would throw.
 TEST_P(SimulatedRun, OfAwkwardScenesComesToItsEnd) {
     const auto [algorithm, servers] = GetParam();
     const auto cameras = unlike_cameras();
@@ -164,7 +164,7 @@ TEST_P(EveryAlgorithm, IsNeverFasterThanItsBusiestResource) {
                                 span.end - span.begin;
                 for (const auto& [station, time] : busy) {
                     const double frame_s = static_cast<double>(time.count()) * 1e-9 / kFrames;
-                    // Work that was done ahead before the first picture that counts is missing.
+                    // Work that was done ahead of the first picture that counts is missing.
                     EXPECT_GE(costs.frame_s, frame_s * 0.98)
                         << station << ", " << servers << " servers, " << in_flight << " in flight";
                 }

@@ -22,7 +22,7 @@ using testing::StartsWith;
 const std::string kHeader = "algorithm,model,servers,column,value\n";
 const std::string kPublished = SWATH_SOURCE_DIR "/sim/published/table1.csv";
 
-// Files in a folder of the test's own.
+// Files are in a folder of the test's own.
 class Compare : public testing::Test {
   protected:
     Compare() { fs::create_directories(folder_); }
@@ -32,7 +32,7 @@ class Compare : public testing::Test {
         std::ofstream(folder_ / name) << text;
         return (folder_ / name).string();
     }
-    // A run of two frames in so many milliseconds.
+    // The timeline of a run of two frames in so many milliseconds.
     std::string timeline(const std::string& name, std::size_t servers, int ms_in_all) const {
         std::vector<FrameTimeline> frames{
             frame(0, {machine("client", {span(Phase::kPartition, 0, 1)})}),

@@ -80,8 +80,8 @@ TEST(PaperFrame, OfSortFirstReadsOnlyWhatIsCovered) {
     EXPECT_DOUBLE_EQ(frame.display_s, 2 * (100 + 3 * 16 * 6));
 }
 
-// Server 0 owns the first and third square, server 1 the second and fourth; what 0 drew lies in the first
-// three, what 1 drew in the last two.
+// Server 0 owns the first and third square, server 1 the second and fourth. Server 0 drew in the first three,
+// server 1 in the last two.
 TEST(PaperFrame, OfSortLastExchangesAndSendsSquareBySquare) {
     const std::vector<ProjectedObject> objects{{{5, 0, 25, 10}, 7, true}, {{24, 0, 38, 10}, 5, true}};
     const FramePlan plan{0,
@@ -117,14 +117,14 @@ TEST(PaperFrame, WithCompositingInHostMemoryReadsAllOnceAndMovesWhatIsActive) {
 TEST(PaperFrame, CountsObjectsThatNobodySees) {
     Overlapping scene;
     scene.objects.push_back({{19, 0, 20, 1}, 11, false});
-    scene.plan.servers[1].group.push_back(2);  // content is, as in every plan, of what is seen
+    scene.plan.servers[1].group.push_back(2);  // the content is, as in every plan, of visible objects
     const PaperFrame frame = paper_frame(scene.plan, scene.objects, Algorithm::kHybrid, slow());
     EXPECT_EQ(frame.servers[1].render_s, 16);
     EXPECT_EQ(frame.servers[1].read_s, 2 * (100 + 2 * 8));  // its group now reaches down to y 0
     EXPECT_EQ(frame.servers[0].final_s, 100 + 16 * 8);      // and so does the region
 }
 
-// Two frames of two servers; the longest takes 10 and 8 ms.
+// Two frames of two servers; the slower one takes 10 and 8 ms.
 PaperMeans two_frames() {
     PaperMeans means;
     means.add({{{6e-3, 2e-3, 1e-3, 1e-3}, {4e-3, 2e-3, 1e-3, 1e-3}}, 4e-3, 30e-3});
@@ -164,7 +164,7 @@ TEST(PaperMeans, OfSortFirstHaveOverlapInPlaceOfExchange) {
     EXPECT_EQ(more.count("pixel_read") + more.count("pixel_write"), 0u);
 }
 
-// Plots refuse what is less than nothing, and "-0.0" looks like a mistake.
+// Plots refuse negative numbers, and "-0.0" looks like a mistake.
 TEST(PaperMeans, TakeNoRoundingForLessThanNothing) {
     PaperMeans means;
     for (int i = 0; i < 3; ++i) means.add({{{0.1, 0, 0, 0.2}, {0.1, 0, 0, 0.2}}, 0, 0});

@@ -62,7 +62,7 @@ TEST(EventQueue, KeepsTheOrderOfManyEventsAtFewTimes) {
         });
     };
     for (int i = 0; i < 3000; ++i) ask(nanoseconds(random() % 100));
-    // More of them from within, for times from now on.
+    // More events from within, for times from now on.
     for (int i = 0; i < 100; ++i)
         events.at(nanoseconds(i), [&] {
             for (int k = 0; k < 20; ++k) ask(events.now() + nanoseconds(random() % 100));

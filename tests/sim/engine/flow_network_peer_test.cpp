@@ -19,7 +19,7 @@ struct PeerSet {
     std::vector<Nanoseconds> finished;
 };
 
-// See tests/sim/peer/README.md for the format.
+// tests/sim/peer/README.md has the format.
 std::vector<PeerSet> read_sets() {
     std::ifstream file(SWATH_PEER_FLOWS);
     std::vector<PeerSet> sets;
@@ -51,7 +51,7 @@ std::vector<PeerSet> read_sets() {
     return sets;
 }
 
-// Within 1 % of the time that each flow takes, of which rounding to nanoseconds is far less.
+// The bound is 1 % of each flow's time; rounding to nanoseconds is far less.
 TEST(FlowNetwork, AgreesWithSimGridsFluidModel) {
     const std::vector<PeerSet> sets = read_sets();
     ASSERT_GE(sets.size(), 12u);

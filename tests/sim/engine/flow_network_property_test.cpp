@@ -43,7 +43,8 @@ class FlowNetworkOn : public testing::TestWithParam<Case> {
             probes_.emplace_back(random() % static_cast<std::uint64_t>((2 * of.starts).count()));
     }
 
-    // No link carries more than its rate, and each flow has one that is full and on which none is faster.
+    // Expects that no link carries more than its rate, and that each flow crosses a full link on which none
+    // is faster.
     void expect_fair(const std::vector<TestFlow>& under_way, const std::vector<double>& found) const {
         const std::size_t hosts = rates_.hosts.size();
         std::vector<double> limit;
@@ -134,8 +135,8 @@ INSTANTIATE_TEST_SUITE_P(RandomFlows, FlowNetworkOn,
                                          Case{64, 500, false, 0, microseconds(1000), {}},
                                          Case{64, 60, true, 0, microseconds(1000), {}}));
 
-// However flows come and go, a link that is never idle is busy for exactly the time that its bytes take: none
-// are lost, none are carried twice.
+// Flows come and go, but a link that is never idle is busy for exactly the time of its bytes: none are lost,
+// none are carried twice.
 TEST(FlowNetwork, CarriesEveryByteOnce) {
     std::mt19937_64 random(3);
     constexpr std::size_t kHosts = 20;

@@ -28,7 +28,7 @@ NetworkRates hosts(std::size_t count, NicRates nic = {kOne, kOne}) {
 
 class FlowNetworkTest : public testing::Test {
   protected:
-    // The rates that flows have which all begin at once and are long, in bytes a nanosecond.
+    // The rates of long flows that begin together, in bytes a nanosecond.
     static std::vector<double> rates_of(const NetworkRates& rates,
                                         const std::vector<std::pair<std::size_t, std::size_t>>& ends) {
         EventQueue events;
@@ -71,8 +71,8 @@ TEST_F(FlowNetworkTest, SharesFromTheMomentAtWhichAnotherFlowBegins) {
                 ElementsAre(nanoseconds(4000), nanoseconds(3000)));
 }
 
-// Three flows into host 3 have a third each. Host 0's other flow takes all that is left of host 0's
-// interface, two thirds, where shares in proportion to demand would give it a half.
+// Three flows into host 3 have a third each. Host 0's other flow takes the rest of host 0's interface, two
+// thirds; shares in proportion to demand would give it a half.
 TEST_F(FlowNetworkTest, GivesAFlowWhatOthersOfItsLinkCannotUse) {
     EXPECT_THAT(rates_of(hosts(5), {{0, 3}, {1, 3}, {2, 3}, {0, 4}}),
                 ElementsAre(testing::DoubleEq(1. / 3), testing::DoubleEq(1. / 3), testing::DoubleEq(1. / 3),
@@ -122,7 +122,7 @@ TEST_F(FlowNetworkTest, RoundsArrivalsUpToWholeNanoseconds) {
     EXPECT_THAT(arrivals(rates, {{0, 1, 1e-9, {}}}), ElementsAre(nanoseconds(0)));
 }
 
-// 1021 bytes at 97 MB/s among twelve make no round number anywhere.
+// With 1021 bytes at 97 MB/s among twelve, no number is round.
 TEST_F(FlowNetworkTest, LetsEqualFlowsArriveTogether) {
     constexpr std::size_t kHosts = 13;
     for (const std::optional<double> core : {std::optional<double>(), std::optional(3.1e8)}) {

@@ -15,22 +15,22 @@ struct TestFlow {
     Nanoseconds start{0};
 };
 
-// Rates of 10 to 1000 MB/s each way, or of 100 MB/s all.
+// Rates of 10 to 1000 MB/s each way, or all of 100 MB/s.
 NetworkRates random_rates(std::mt19937_64& random, std::size_t hosts, bool equal);
 
-// Between different hosts, of 1 byte to 100 kB, starting within `starts`.
+// Flows between different hosts, of 1 byte to 100 kB, that start within `starts`.
 std::vector<TestFlow> random_flows(std::mt19937_64& random, std::size_t hosts, std::size_t flows,
                                    Nanoseconds starts);
 
-// When each flow arrives, with a connection (Stream) of its own.
+// Arrival times of flows that have a connection (Stream) each.
 std::vector<Nanoseconds> arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows,
                                   Nanoseconds latency = Nanoseconds(0));
 
 // Max-min fair rates by the book: all flows rise by the same step until a link is full, again and again.
-// Slow, shares no code with FlowNetwork.
+// Slow; shares no code with FlowNetwork.
 std::vector<double> filled_rates(const NetworkRates& rates, const std::vector<TestFlow>& flows);
 
-// When each flow arrives in seconds, with filled_rates() from one start or end to the next.
+// Arrival times in seconds, with filled_rates() from one start or end to the next.
 std::vector<double> slow_arrivals(const NetworkRates& rates, const std::vector<TestFlow>& flows,
                                   Nanoseconds latency);
 

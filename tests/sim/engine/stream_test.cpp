@@ -24,7 +24,7 @@ NetworkRates hosts(std::size_t count) {
 }
 
 TEST(Stream, LetsTheLatencyPassBeforeTheFirstByteFlows) {
-    // The second shares from 400 to 600, in which it ends; the first then has 700 of its bytes to go.
+    // The second message shares from 400 to 600, when it ends; the first then has 700 of its bytes to go.
     EXPECT_THAT(test::arrivals(hosts(3), {{0, 2, 900, nanoseconds(0)}, {1, 2, 100, nanoseconds(100)}},
                                nanoseconds(300)),
                 ElementsAre(nanoseconds(1300), nanoseconds(600)));

@@ -1,5 +1,4 @@
-// Prints the flow sets of data/flows.txt, without finish times: always the same ones. See README.md for the
-// format.
+// Prints the flow sets of flows.txt, without finish times; always the same. README.md has the format.
 #include <cstdint>
 #include <cstdio>
 #include <random>
@@ -10,7 +9,7 @@ struct Set {
     const char* name;
     std::uint64_t hosts;
     std::uint64_t flows;
-    bool equal_rates;    // else each interface has its own, 10 to 160 MB/s each way
+    bool equal_rates;    // if not, each interface has its own rate, 10 to 160 MB/s each way
     std::uint64_t core;  // bytes a second; 0: none
     std::uint64_t latency_ns;
     std::uint64_t starts_ns;  // flows start in [0, starts_ns]
@@ -38,7 +37,7 @@ constexpr Set kSets[] = {
 }  // namespace
 
 int main() {
-    // The standard fixes this generator's numbers, not those of its distributions.
+    // The standard fixes this generator's numbers, but not those of its distributions.
     std::mt19937_64 random(2000);
     const auto below = [&random](std::uint64_t n) { return random() % n; };
     for (const Set& set : kSets) {

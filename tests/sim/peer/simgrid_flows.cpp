@@ -1,5 +1,5 @@
-// Reads flow sets and prints them again, each flow with the time at which SimGrid's fluid network model has
-// it finished. See README.md for the format. Every set has hosts and links of its own on one platform.
+// Reads flow sets and prints them again, each flow with its finish time by SimGrid's fluid network model.
+// README.md has the format. Every set has hosts and links of its own on one platform.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

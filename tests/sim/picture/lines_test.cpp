@@ -155,7 +155,7 @@ TEST(WireframeTest, fades_what_lies_between_its_edges_and_nothing_else) {
     EXPECT_EQ(at(coverage, 160, 120), 0.25f);
     for (int y = 0; y < 240; ++y)
         for (int x = 0; x < 320; ++x) {
-            // Seen from the front the cube's near face is all of it, up to the rounding of its bounds.
+            // From the front the cube's near face covers all of it, up to the rounding of its bounds.
             const Rect& b = frame.bounds;
             const float of = at(coverage, x, y);
             if (x < b.x0 || x >= b.x1 || y < b.y0 || y >= b.y1) {

@@ -59,7 +59,7 @@ Drawn drawn(const Picture& picture, const std::string& name = "picture") {
     return {bytes_of(stem.string() + ".svg"), bytes_of(stem.string() + ".png")};
 }
 
-// How many different pixels the PNG has; 0 where it is none.
+// The number of different colours in the PNG; 0 if it is no PNG.
 std::size_t colours_in(const std::string& png) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;

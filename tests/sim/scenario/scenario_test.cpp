@@ -96,7 +96,7 @@ TEST(Scenario, RefusesLabelsThatBecomeTheSame) {
     options.granularities.push_back({3, 0});
     options.models = {{"knot", "builtin:knot:300"}, {"town", "builtin:town:300"}};
     EXPECT_EQ(labels_of(options).size(), 4u);
-    // No flag gives two models one name, but "a (depth 2)" may be one's name and the other's label.
+    // No flag gives two models one name, but "a (depth 2)" may be the name of one and the label of another.
     options.models = {{"knot", "builtin:knot:300"}};
     ScenarioOptions clash = options;
     clash.models.push_back({"knot", "builtin:town:300"});

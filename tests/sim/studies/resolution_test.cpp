@@ -1,6 +1,6 @@
-// Section 7.5 of Samanta 2000, as it is: four times the pixels cost sort-last's exchange almost four times
-// as much, and the hybrid's not twice as much, as the paper concludes from objects of a constant size in
-// pixels, but more than three times, since objects grow with the screen.
+// Section 7.5 of Samanta 2000, as it really is: four times the pixels make sort-last's exchange almost four
+// times as dear. The paper concludes from objects of a constant size in pixels that the hybrid's is less than
+// twice as dear; it is more than three times, since objects grow with the screen.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace swath::sim {
 namespace {
 
-// The mean time that a server spends on moving pixels, in ms.
+// A server's mean time for moving pixels, in ms.
 double moved_ms(const StudyModel& model, const Hardware& hardware, const Paths& paths, Algorithm algorithm,
                 std::size_t servers, int scale) {
     Experiment experiment;

@@ -46,7 +46,7 @@ class Study : public testing::Test {
     test::TemporaryFolder files_;
 };
 
-// Made by, after looking at the difference:
+// The golden file is made by these commands; look at the difference before.
 //   swath-sim study feasibility --model knot=builtin:knot:3000 --frames 3 --seeds 2 --out DIR
 //   cp DIR/table1.csv tests/sim/studies/golden/
 TEST_F(Study, OfFeasibilityMakesTheTableThatItMadeBefore) {
@@ -133,7 +133,7 @@ TEST_F(Study, RefusesNamesThatItCouldNotTellApartOrPlace) {
     EXPECT_FALSE(std::filesystem::exists(options.out / "index.html"));
 }
 
-// Whatever a model is called, its files are in the folder and the page finds them.
+// A model may have any name: its files are in the folder and the page finds them.
 TEST_F(Study, GivesFilesPlainNames) {
     StudyOptions options = small("plain", {"scalability"});
     options.models = {{"../a b#1%", "builtin:knot:300"}};

@@ -1,4 +1,4 @@
-// Table 1 of Samanta 2000 with the real Dragon, as the paper's study makes it: 50 frames, several seeds.
+// Table 1 of Samanta 2000 with the real Dragon, as in the paper's study: 50 frames, several seeds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class Table1 : public testing::TestWithParam<std::uint64_t> {
         rows_ = std::move(*table);
     }
 
-    // The table has the Hand's stand-in too.
+    // The table also has the Hand's stand-in.
     double ours(const std::string& algorithm, std::size_t servers, const std::string& column) const {
         for (const Row& row : rows_)
             if (row.algorithm == algorithm && row.model == "dragon" && row.servers == servers &&

@@ -120,7 +120,7 @@ TEST_F(Sweep, InterruptedAtAnyByteGoesOnToTheSameTable) {
         const auto result = run("cut", 1 + size % 3);
         ASSERT_TRUE(result) << size << ": " << result.error().message;
         ASSERT_EQ(table("cut"), table("whole")) << size;
-        // Only what was missing is run: the entries that were there stay where they are.
+        // Only missing experiments are run: the entries that were there stay in place.
         ASSERT_EQ(journal("cut").size(), whole.size()) << size;
         const std::string_view lines = std::string_view(whole).substr(0, whole.rfind('\n', size - 1) + 1);
         if (const auto end = lines.rfind("\n# complete"); size > head.size() && end != lines.npos) {
@@ -146,7 +146,7 @@ TEST_F(Sweep, TouchesNothingWhereTheJournalIsNotItsOwn) {
     changed.path.frames = 3;
     const auto other = Scenario::load(changed);
     ASSERT_TRUE(other);
-    const std::string kept = journal("out") + "hybrid,";  // not even what is cut off
+    const std::string kept = journal("out") + "hybrid,";  // not even the cut-off entry goes
     write_journal("out", kept);
     files_.write("out/sweep.csv", "kept");
     const auto result = run_on(*other, "out");
@@ -198,7 +198,7 @@ TEST_F(Sweep, NamesAFolderThatIsNone) {
     EXPECT_THAT(run("odd").error().message, StartsWith(journal_path("odd") + ": "));
 }
 
-// Files of this process end at so many bytes, as on a full disk, while this lives.
+// While this lives, files of this process end at so many bytes, as on a full disk.
 class FullDisk {
   public:
     explicit FullDisk(std::size_t bytes) {

@@ -1,4 +1,4 @@
-// The node counts that the ADSB paper prints in tables 2 and 3: how many nodes of a tree of 9 levels each of
+// The node counts that the ADSB paper prints in tables 2 and 3: the nodes of a tree of 9 levels that each of
 // four processors tests, at split levels 0 to 4.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -38,7 +38,7 @@ class BoxMaker {
         }
         return boxes;
     }
-    // From specks to boxes as large as everything.
+    // Boxes from specks to the size of everything.
     std::vector<Box> mixed(int count) {
         std::vector<Box> boxes;
         for (int i = 0; i < count; ++i)

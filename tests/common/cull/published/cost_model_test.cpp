@@ -38,7 +38,7 @@ TEST(A2ssbCost, GivesTheClosedFormsOfItsSums) {
                     EXPECT_DOUBLE_EQ(cost.total(), rest / (7 * p) + (p - 1) * std::pow(8, d + 1) / p);
                     EXPECT_EQ(cost.subtree_height(), h - d - 1);
                 }
-    // Equation 29 leaves out what is small: r and the transfer.
+    // Equation 29 leaves out small terms: r and the transfer.
     const A2ssbCost large{.height = 8, .start_level = 1, .split_level = 3, .processors = 4};
     EXPECT_NEAR(large.roughly_total() / large.total(), 1, 0.001);
     // Equation 30.
@@ -46,7 +46,7 @@ TEST(A2ssbCost, GivesTheClosedFormsOfItsSums) {
     EXPECT_DOUBLE_EQ(larger.roughly_total(), 8 * large.roughly_total());
 }
 
-// The equations against the algorithm: all they leave out are the nodes of the start level.
+// The equations agree with the algorithm, but for the nodes of the start level, which they leave out.
 TEST(A2ssbCost, IsWhatTheAlgorithmDoesWhenEverythingIsVisible) {
     ThreadTeam team(4, kClock);
     const UniformOctree shape(5);

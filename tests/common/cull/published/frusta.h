@@ -12,8 +12,8 @@ inline Frustum frustum_of(const Camera& camera, int width = 4, int height = 3) {
     return make_frustum(make_view(camera, width, height));
 }
 
-// The frustum behind ADSB's tables 2 and 3, in leaf edges of a tree of 9 levels: 30 degrees, 4:3, along +y.
-// The paper prints neither planes nor eye; all 40 counts agree with these.
+// The frustum of ADSB's tables 2 and 3, in leaf edges of a tree of 9 levels: 30 degrees, 4:3, along +y. The
+// paper prints neither planes nor eye; all 40 counts agree with these.
 inline Frustum adsb_frustum(const glm::vec3& eye) {
     Camera camera;
     camera.eye = eye;
@@ -71,7 +71,7 @@ inline std::vector<Frustum> all_sorts_of_frusta(float edge, int cameras, unsigne
     frustum.planes[4] = {0, kInfinity, -1, 0};
     frusta.push_back(frustum);
     frustum = frusta[0];
-    for (glm::vec4& plane : frustum.planes) plane *= 1e-41f;  // not normalised floats any more
+    for (glm::vec4& plane : frustum.planes) plane *= 1e-41f;  // denormal numbers
     frusta.push_back(frustum);
     frustum = frusta[0];
     for (glm::vec4& plane : frustum.planes) plane *= 1e36f / edge;

@@ -1,4 +1,4 @@
-// Objects culled by the published algorithms against a plain loop.
+// The published algorithms cull objects as a plain loop does.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(OctreeCuller, FindsWhatALoopFindsOfAnyBoxesInAnyViewForAnyTeam) {
 TEST(OctreeCuller, WorksWithEveryPublishedAlgorithm) {
     const std::vector<Frustum> views = frusta();
     std::vector<Box> boxes = BoxMaker(5).scattered(3'000, 2);
-    // Some that are too large for cells.
+    // Some are too large for cells.
     for (const Box& box : BoxMaker(6).scattered(100, 200)) boxes.push_back(box);
     ASSERT_LT(ObjectCells(boxes).first_of_no_cell(), boxes.size() - 50);
     ThreadTeam team(3, kClock);
@@ -77,7 +77,7 @@ TEST(OctreeCuller, FindsBoxesWhereTheyHaveMovedTo) {
         const auto culler = make_culler(algorithm, boxes, team);
         for (std::uint32_t round = 0; round < 6; ++round) {
             boxes = BoxMaker(7 + round).scattered(3'000, round % 2 == 0 ? 2 : 40);
-            // All together at one place: a tree of another height.
+            // All boxes in one place make a tree of another height.
             if (round == 3) boxes.assign(3'000, boxes.front());
             culler->refit(boxes);
             for (const Frustum& view : views)
@@ -130,20 +130,20 @@ TEST(ObjectCells, HoldMostBoxesInCellsUnlessTheyAreTooLarge) {
     const ObjectCells small(make.scattered(5'000, 1));
     EXPECT_EQ(small.shape().height(), 4);
     EXPECT_GT(small.first_of_no_cell(), 4'990u);
-    // Larger boxes get a lower tree, so that only few must be tested one by one.
+    // Larger boxes get a lower tree, so that few must be tested one by one.
     const ObjectCells large(make.scattered(5'000, 30));
     EXPECT_LT(large.shape().height(), 4);
     EXPECT_GE(large.shape().height(), 1);
     EXPECT_GT(large.first_of_no_cell(), 5'000u * 15 / 16);
     EXPECT_EQ(large.box_count(), 5'000u);
-    // All at one place: one cell around them.
+    // All in one place: one cell around them.
     const ObjectCells same(std::vector<Box>(500, Box{{1, 2, 3}, {2, 4, 6}}));
     EXPECT_EQ(same.shape().height(), 0);
     EXPECT_EQ(same.first_of_no_cell(), 500u);
 }
 
-// Boxes as large as a leaf whose centres are on faces of leaves, so that they reach as far beyond as a box in
-// a cell can, and planes that just touch one of them, up to a bit.
+// Boxes as large as a leaf with centres on faces of leaves, so that they reach as far beyond as a box in a
+// cell can, and planes that just touch one of them, up to a bit.
 void expect_no_visible_box_lost(const glm::vec3& corner) {
     BoxMaker make(9);
     std::vector<Box> boxes;
@@ -181,7 +181,7 @@ TEST(ObjectCells, LoosenAFrustumSoThatNoCellOfAVisibleBoxIsOutside) {
     expect_no_visible_box_lost(glm::vec3(100'000));
 }
 
-// Single precision takes 1e39 for infinite and finds boxes inside, where exact arithmetic does not.
+// Single precision takes 1e39 for infinite and finds boxes inside; exact arithmetic does not.
 TEST(ObjectCells, DropNothingByAPlaneThatOverflows) {
     std::vector<Box> boxes = BoxMaker(9).scattered(2'000, 0.1f);
     for (Box& box : boxes) box = {100.0f + 0.1f * box.min, 100.0f + 0.1f * box.max};

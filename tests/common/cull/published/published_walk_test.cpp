@@ -20,7 +20,7 @@ constexpr std::array kAlgorithms{PublishedAlgorithm::kAdsb,       PublishedAlgor
                                  PublishedAlgorithm::kAlgo4,      PublishedAlgorithm::kAlgo5,
                                  PublishedAlgorithm::kAlgo1Lanes, PublishedAlgorithm::kAlgo4Lanes};
 
-// A2SSB, in two steps from the start level.
+// True for A2SSB, which goes in two steps from the start level.
 bool has_two_steps(PublishedAlgorithm algorithm) {
     return algorithm == PublishedAlgorithm::kAlgo1 || algorithm == PublishedAlgorithm::kAlgo2 ||
            algorithm == PublishedAlgorithm::kAlgo3 || algorithm == PublishedAlgorithm::kAlgo1Lanes;
@@ -33,7 +33,7 @@ Codes brute_force(const UniformOctree& tree, const Frustum& frustum) {
     return codes;
 }
 
-// Every leaf of every member: a leaf found twice is there twice.
+// The leaves of all members; a leaf that was found twice is there twice.
 Codes sorted_leaves(const WalkReport& report) {
     Codes codes;
     for (const MemberReport& member : report.members)
@@ -74,7 +74,7 @@ TEST(PublishedWalk, FindsTheLeavesThatBruteForceFindsForAnyTeamTreeAndView) {
     }
 }
 
-// Printed, algorithm 5 loses N mod p of the N nodes at the split level.
+// As printed, algorithm 5 loses N mod p of the N nodes at the split level.
 TEST(PublishedWalk, FindsThemAtEverySplitLevelForEveryNumberOfMembers) {
     const UniformOctree shape(3);
     const PointerOctree stored(shape, AllocationOrder::kBreadthFirst);
@@ -119,7 +119,7 @@ TEST(PublishedWalk, TestsOneNodeWhenTheRootIsOutside) {
     for (const PublishedAlgorithm algorithm : {PublishedAlgorithm::kAdsb, PublishedAlgorithm::kAlgo4,
                                                PublishedAlgorithm::kAlgo5, PublishedAlgorithm::kAlgo4Lanes})
         EXPECT_EQ(nodes_tested(make_published_walk(algorithm, shape, team)->walk(nothing())), 1u);
-    // The eight nodes of its start level.
+    // These are the eight nodes of its start level.
     EXPECT_EQ(nodes_tested(make_published_walk(PublishedAlgorithm::kAlgo1, shape, team)->walk(nothing())),
               8u);
 }

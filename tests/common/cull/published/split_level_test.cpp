@@ -12,7 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// The levels of the frames whose idle times are given by level.
+// The levels of frames, given idle times by level.
 template <class Controller>
 std::vector<int> levels(Controller controller, std::vector<int> idle_by_level, int frames) {
     std::vector<int> seen;
@@ -43,10 +43,10 @@ TEST(StartLevel, HasANodeForEveryProcessor) {
 }
 
 TEST(AdsbSplitLevel, GoesDeeperWhileIdleTimeFallsAndTurnsRoundWhenItGrows) {
-    // Table 3's counts as times: the sum over processors of the most less their own.
+    // Idle times from the counts of table 3: the sum over processors of the largest count less their own.
     EXPECT_THAT(levels(AdsbSplitLevel(8), {13'299, 13'299, 3'339, 5'607, 13'323, 0, 0, 0, 0}, 10),
                 ElementsAre(0, 1, 2, 3, 2, 1, 2, 3, 2, 1));
-    // Table 2's: it turns round at the first bump and never finds the best, 3.
+    // With those of table 2 it turns round at the first bump and never finds the best level, 3.
     EXPECT_THAT(levels(AdsbSplitLevel(8), {3'075, 3'099, 3'291, 2'519, 14'043, 0, 0, 0, 0}, 6),
                 ElementsAre(0, 1, 0, 0, 0, 0));
 }

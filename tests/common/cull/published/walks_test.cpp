@@ -11,7 +11,7 @@
 namespace swath {
 namespace {
 
-// Boxes whose faces lie on planes up to rounding, where one bit decides.
+// Boxes with faces on planes up to rounding, where one bit decides.
 TEST(WalkTable, TestsABoxAsTheOnePlaneExpressionDoesInEveryInstructionSet) {
     std::mt19937 random(4);
     const auto number = [&] { return static_cast<float>(random() % 2001) / 1000.0f - 1.0f; };

@@ -14,7 +14,7 @@ TEST(IdSlots, BringTogetherWhatPartsFoundInTheOrderOfTheParts) {
     for (const std::size_t members : {1u, 2u, 3u, 64u}) {
         ThreadTeam team(members, clock);
         IdSlots slots(kIds);
-        // Part i may find up to 100, and finds every (i + 1)th.
+        // Part i may find up to 100 ids, and finds every (i + 1)th.
         std::vector<std::size_t> begins;
         std::vector<std::uint32_t> expected;
         for (std::size_t begin = 0; begin < kIds; begin += 100) begins.push_back(begin);

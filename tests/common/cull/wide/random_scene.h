@@ -15,7 +15,7 @@ enum class Layout { kMorton, kRandom, kClustered, kIdentical, kDegenerate };
 inline constexpr Layout kLayouts[] = {Layout::kMorton, Layout::kRandom, Layout::kClustered,
                                       Layout::kIdentical, Layout::kDegenerate};
 
-// Boxes in and around [0, 1]^3, and frusta that cut through it or do not.
+// Boxes in and around [0, 1]^3, and frusta that may cut through it.
 class RandomScene {
   public:
     explicit RandomScene(unsigned seed) : random_(seed) {}
@@ -44,7 +44,7 @@ class RandomScene {
         }
         return made;
     }
-    // A camera's, at any distance from the boxes.
+    // The frustum of a camera, at any distance from the boxes.
     Frustum frustum() {
         Camera camera;
         camera.eye = point(-0.5f, 1.5f);
@@ -54,7 +54,7 @@ class RandomScene {
         camera.far = std::exp(uniform(-3, 2));
         return make_frustum(make_view(camera, 400, 300));
     }
-    // One that no camera has, or that a broken one may have.
+    // A frustum that no camera has, or only a broken one.
     Frustum odd_frustum(int kind) {
         const float odd[] = {0.0f, -0.0f, nan(), infinity(), -infinity(), 1e30f, -1e-40f};
         Frustum frustum = this->frustum();
@@ -62,7 +62,7 @@ class RandomScene {
                 case 0:  // everything is inside
                     plane = {0, 0, 0, 1};
                     break;
-                case 1:  // and outside
+                case 1:  // everything is outside
                     plane = {0, 0, 0, -1};
                     break;
                 case 2:
@@ -88,7 +88,7 @@ class RandomScene {
   private:
     static float nan() { return std::numeric_limits<float>::quiet_NaN(); }
     static float infinity() { return std::numeric_limits<float>::infinity(); }
-    // Every other one is made empty, infinite or no number in some coordinates.
+    // Makes about every other box empty, infinite or NaN in some coordinates.
     void spoil(Box& box) {
         const float odd[] = {nan(), infinity(), -infinity(), 3e38f, -3e38f, 0.5f};
         if (random_() % 8 == 0) box = Box{};

@@ -48,7 +48,7 @@ TEST(WideCuller, FindsBoxesWhereTheyHaveMovedTo) {
 
 class WideCullerChoice : public testing::Test {
   protected:
-    // Part of the scene is in view.
+    // A part of the scene is in view.
     Frustum frustum_ = [] {
         Camera camera;
         camera.eye = {0.5f, 0.5f, 0.5f};
@@ -66,10 +66,10 @@ TEST_F(WideCullerChoice, IsTheScanForALargeSceneWithoutOrder) {
         EXPECT_FALSE(culler.cull(frustum_).empty());
         EXPECT_TRUE(culler.scanned());
     }
-    // Nothing of it crosses a plane.
+    // No box crosses a plane.
     culler.cull(scene_.odd_frustum(1));
     EXPECT_FALSE(culler.scanned());
-    // The next frame like the last is a surprise, the one after it is none.
+    // A frame like the last is a surprise at first, but not a second time.
     culler.cull(frustum_);
     culler.cull(frustum_);
     EXPECT_TRUE(culler.scanned());

@@ -1,5 +1,5 @@
-// docker/kubernetes, rendered by kubectl and held against Kubernetes' published schemas and the programs' flags.
-// Programs are where SWATH_PROGRAMS says.
+// docker/kubernetes, rendered by kubectl, obeys Kubernetes' published schemas and fits the programs' flags.
+// SWATH_PROGRAMS is the folder of the programs.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
@@ -81,7 +81,7 @@ test('the pod to copy models through fits the schema and the claim', () => {
         of('overlays/large', 'PersistentVolumeClaim').metadata.name);
 });
 
-// Each of these breaks one thing that a person could get wrong, and says what must then be heard.
+// Each of these breaks one thing that a person could get wrong, with the problem that must be found.
 const breaks = [
     ['a misspelt field', d => { pod(d).containers[0].imagePullPolcy = 'Never'; }, /imagePullPolcy/],
     ['a misspelt field of a probe', d => { pod(d).containers[0].readinessProbe.periodSecond = 5; }, /periodSecond/],

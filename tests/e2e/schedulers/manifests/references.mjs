@@ -1,4 +1,4 @@
-// What no schema can say: that documents fit each other, and the programs. One line a problem.
+// Checks what no schema can: that documents fit each other, and the programs. One line for each problem.
 
 const container_kinds = ['Deployment', 'StatefulSet', 'DaemonSet', 'Job'];
 const covers = (selector, labels) => Object.entries(selector ?? {}).every(([key, value]) => labels?.[key] === value);
@@ -12,14 +12,14 @@ function workloads(documents) {
     }));
 }
 
-// What `command` and `args` come to, for the program and for each probe.
+// The command lines of the program and of each probe, from `command` and `args`.
 function commands(container) {
     const probes = ['startupProbe', 'readinessProbe', 'livenessProbe'].flatMap(
         probe => (container[probe] ? [container[probe].exec?.command ?? []] : []));
     return [[...(container.command ?? []), ...(container.args ?? [])], ...probes];
 }
 
-// `help` is what a program prints with --help, or undefined when there is no such program.
+// `help` is the output of a program's --help, or undefined if there is no such program.
 export function reference_problems(documents, help) {
     const problems = [];
     const expect = (right, text) => right || problems.push(text);
@@ -65,7 +65,7 @@ export function reference_problems(documents, help) {
         for (const {persistentVolumeClaim: claim} of volumes)
             expect(!claim || find('PersistentVolumeClaim', claim.claimName), `${name}: no claim ${claim?.claimName}`);
 
-        // Pod security "restricted", and more: a root file system that cannot be written.
+        // Pod security "restricted", and a root file system that cannot be written.
         const runs_as = pod.securityContext ?? {};
         expect(runs_as.runAsNonRoot === true && runs_as.runAsUser > 0, `${name} may run as root`);
         expect(runs_as.seccompProfile?.type === 'RuntimeDefault', `${name} has no seccomp profile`);

@@ -1,6 +1,6 @@
-// What Kubernetes' published schemas say about a document. Two readings of the same OpenAPI description: compiled
-// validators know required fields, types, choices and formats; the types, checked by the TypeScript compiler, know
-// every field's name, so that a misspelt one is found as well.
+// Checks a document against Kubernetes' published schemas. Two readings of the same OpenAPI description:
+// compiled validators know required fields, types, choices and formats; the types, checked by the TypeScript
+// compiler, know every field's name, so that a misspelt one is found as well.
 import {createRequire} from 'node:module';
 import path from 'node:path';
 import {fileURLToPath} from 'node:url';
@@ -51,7 +51,7 @@ function unknown_fields(documents) {
     });
 }
 
-// One line a problem, none for good documents.
+// One line for each problem, none for good documents.
 export function schema_problems(documents) {
     const values = documents.flatMap(invalid_values);
     const known = documents.filter(document => !invalid_values(document).some(text => text.endsWith('no such kind')));

@@ -1,5 +1,5 @@
-// docker/swarm: the compose file and what a Swarm wants otherwise, merged as `docker stack deploy` does it. This needs
-// the docker command, but no engine. Programs are where SWATH_PROGRAMS says.
+// docker/swarm: the compose file and the Swarm's additions, merged as `docker stack deploy` does. This needs
+// the docker command, but no engine. SWATH_PROGRAMS is the folder of the programs.
 import assert from 'node:assert/strict';
 import {execFileSync, spawnSync} from 'node:child_process';
 import fs from 'node:fs';
@@ -28,7 +28,7 @@ test('docker merges both files', () => {
 test('the servers\' name stands for every task', () => {
     assert.equal(services.server.deploy.endpoint_mode, 'dnsrr');
     assert.equal(services.server.deploy.placement.max_replicas_per_node, 1);
-    assert.equal(services.server.ports, undefined);  // which a service with all its addresses cannot have
+    assert.equal(services.server.ports, undefined);  // a service with all its addresses cannot have ports
     assert.ok(services.client.command.includes('--servers=dns:server:4000'));
 });
 
