@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     options.threads = drawing_threads(threads);
     set_raster_threads(threads);
     cuda = cuda && can_build_on_cuda();
-    // A terminal's Ctrl-C reaches all programs; one on a lifeline leaves it to the one that started it.
+    // A terminal's Ctrl-C reaches all programs. One on a lifeline leaves it to the program that started it.
     StopSignals signals(kExitDone, !program.lifeline);
     tune_allocator();
 

@@ -31,9 +31,9 @@ Result<std::vector<FrameTimeline>> run_cluster(
     });
     while (!over && io.run_one() > 0) {
     }
-    // What is left: the last words to peers, and perhaps attempts to connect that no longer matter.
+    // Sends the last words to peers. Attempts to connect may also be pending, but no longer matter.
     io.run_for(std::chrono::milliseconds(200));
-    // It has been asked for, or ends by itself.
+    // The run has ended: a signal must not reach it any more.
     signals.on_stop([] {});
     return result;
 }

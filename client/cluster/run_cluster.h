@@ -7,8 +7,8 @@
 
 namespace swath {
 
-// Runs a job to its end on an io_context of its own; a signal ends it early with an error, a live run without
-// one. Blocking.
+// Runs a job to its end on an io_context of its own. A signal ends it early: a live run well, any other with
+// an error. Blocking.
 Result<std::vector<FrameTimeline>> run_cluster(
     ClusterJob job, const Clock& clock, StopSignals& signals,
     std::function<void(const std::string& page, std::size_t servers)> on_ready,

@@ -5,7 +5,7 @@
 namespace swath {
 namespace {
 
-// A person reads no faster; partitioning by all algorithms is work.
+// A person reads no faster, and it is work to partition by all algorithms.
 constexpr Nanoseconds kBetweenComparisons = std::chrono::milliseconds(250);
 constexpr Nanoseconds kRest = std::chrono::seconds(1);  // between two frames that do not follow one another
 
@@ -39,7 +39,7 @@ void Broadcast::on_scene(std::shared_ptr<const ObjectSet> scene) {
     tell_objects();
 }
 
-// Made when somebody looks: a large model's takes a while.
+// Makes the note only for viewers: that of a large model takes a while.
 void Broadcast::tell_objects() {
     if (viewers_ > 0) tell(NoteTopic::kObjects, objects_note(generation_, *scene_));
 }
@@ -58,7 +58,7 @@ void Broadcast::on_planned(const FrameOrder& order, const FramePlan& plan, doubl
     if (viewers_ > 0) tell(NoteTopic::kPlan, plan_note(order, plan, overlap, generation_), plan.frame);
 }
 
-// Predicted before the frame itself teaches anything.
+// Predicts before the frame itself teaches the rates anything.
 FrameFindings Broadcast::findings_of(const FinishedFrame& frame, Nanoseconds now) {
     FrameFindings findings;
     if (last_over_ && now - *last_over_ < kRest) findings.interval = now - *last_over_;
@@ -102,7 +102,7 @@ void Broadcast::on_over(const FinishedFrame& frame, bool measuring, Nanoseconds 
 }
 
 void Broadcast::on_trace(const std::vector<FrameTimeline>& frames) {
-    // Of many servers' frames fewer fit.
+    // Only some frames of many servers fit: the newest.
     std::span<const FrameTimeline> newest(frames);
     std::string note = trace_note(to_chrome_trace(newest));
     while (note.size() > kMaxNoteBytes && newest.size() > 1) {

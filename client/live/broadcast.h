@@ -13,8 +13,9 @@
 
 namespace swath {
 
-// Tells viewers about a run, and only while there are some: composes the notes and hands them to `send`. What
-// stays (session, objects, state, speed-ups) is told anew to whoever comes first. One thread.
+// Tells viewers about a run, and only while there are some: composes the notes and hands them to `send`.
+// Notes that stay valid (session, objects, state, speed-ups) are sent again when a first viewer comes. One
+// thread.
 class Broadcast {
   public:
     using Send = std::function<void(NoteTopic, FrameNumber, const std::string&)>;
@@ -25,7 +26,7 @@ class Broadcast {
     void on_session(SessionFacts facts, const LiveView* live, const WishLimits& limits);
     // The model is cut like this from the next plan on.
     void on_scene(std::shared_ptr<const ObjectSet> scene);
-    // Servers draw or cull differently from now on: what was learned of their rates is void.
+    // Servers draw or cull differently from now on, so the learned rates are void.
     void on_drawing() { rates_ = {}; }
     void on_state(const LiveView& live, const std::string& busy, const std::string& command);
     void on_planned(const FrameOrder& order, const FramePlan& plan, double overlap);
@@ -35,7 +36,7 @@ class Broadcast {
 
   private:
     void tell(NoteTopic topic, const std::string& text, FrameNumber frame = 0);
-    // Kept for those who come first.
+    // Tells it, and again when a first viewer comes.
     void keep(NoteTopic topic, std::string text);
     void tell_objects();
     void tell_speed_ups(bool measuring);
@@ -48,13 +49,13 @@ class Broadcast {
     std::uint64_t generation_ = 0;
     std::optional<Nanoseconds> last_over_;
     SpeedUps speed_ups_;
-    Rates rates_;  // of pictures of this size
+    Rates rates_;  // for pictures of this size
     int width_ = 0;
     int height_ = 0;
-    std::map<Algorithm, std::unique_ptr<Partitioner>> partitioners_;  // of scene_, for predictions
+    std::map<Algorithm, std::unique_ptr<Partitioner>> partitioners_;  // for scene_ and predictions
     std::optional<Nanoseconds> last_comparison_;
-    Algorithm compared_ = Algorithm::kHybrid;  // in use then
-    bool measuring_ = false;                   // as told
+    Algorithm compared_ = Algorithm::kHybrid;  // the algorithm in use at the last comparison
+    bool measuring_ = false;                   // as told last
     std::map<NoteTopic, std::string> kept_;    // session, state, speed-ups
 };
 

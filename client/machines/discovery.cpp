@@ -72,7 +72,7 @@ void Discovery::answer(Result<std::vector<Address>> found) {
     timer_.async_wait([this, alive = std::weak_ptr<char>(alive_)](const boost::system::error_code& stopped) {
         if (!stopped && !alive.expired()) ask();
     });
-    on_found_(found);  // last: it may destroy us
+    on_found_(found);  // last, because it may destroy us
 }
 
 }  // namespace swath

@@ -10,12 +10,11 @@
 
 namespace swath {
 
-// Asks a source of servers again and again, every second or so, until it is destroyed. On the io_context's
-// thread.
+// Asks a source of servers every second or so, until it is destroyed. On the io_context's thread.
 class Discovery {
   public:
-    // What the source says now, without doubles. An error is no end: the name may not be known yet. Of a
-    // host's addresses those of IPv6 count only where it has no other: they would be the same servers again.
+    // The source's addresses, without doubles. An error ends nothing: the name may not be known yet. IPv6
+    // addresses of a host count only if it has no others, since they would be the same servers again.
     using OnFound = std::function<void(const Result<std::vector<Address>>&)>;
     Discovery(boost::asio::io_context& io, ServerSource source, OnFound on_found);
 
@@ -29,8 +28,8 @@ class Discovery {
     OnFound on_found_;
     boost::asio::ip::tcp::resolver resolver_;
     boost::asio::steady_timer timer_;
-    std::shared_ptr<char> alive_ =
-        std::make_shared<char>();  // callbacks hold it weakly: none acts after destruction
+    // Callbacks hold it weakly: none acts after destruction.
+    std::shared_ptr<char> alive_ = std::make_shared<char>();
 };
 
 }  // namespace swath

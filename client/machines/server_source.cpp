@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-// "dns:4000" is a host of that name.
+// True for dns:NAME:PORT; "dns:4000" is an address of a host named dns.
 bool is_name(std::string_view text) {
     return text.starts_with(kName) && text.substr(kName.size()).find(':') != std::string_view::npos;
 }

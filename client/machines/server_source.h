@@ -8,10 +8,10 @@
 
 namespace swath {
 
-// Where a run's servers come from.
+// The origin of a run's servers.
 struct ServerSource {
     enum class Kind {
-        kList,  // these; a run begins with all of them
+        kList,  // these addresses; a run begins with all of them
         kName,  // all addresses of a host name
         kFile,  // a file with an address a line
     };
@@ -22,13 +22,13 @@ struct ServerSource {
     bool operator==(const ServerSource&) const = default;
 };
 
-// "HOST:PORT" each, or alone "dns:NAME:PORT" or "file:PATH".
+// Reads "HOST:PORT" each, or alone "dns:NAME:PORT" or "file:PATH".
 Result<ServerSource> parse_server_source(const std::vector<std::string>& texts);
-// As a person gave it.
+// The text that a person gave.
 std::string to_string(const ServerSource& source);
 
-// The contents of a file: HOST:PORT a line; blanks, empty lines and what follows a # do not count. Errors
-// name the line.
+// Reads the contents of a file: HOST:PORT a line; ignores blanks, empty lines and text after a #. Errors name
+// the line.
 Result<std::vector<Address>> parse_server_list(std::string_view text);
 
 }  // namespace swath

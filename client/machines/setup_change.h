@@ -11,14 +11,14 @@ class SetupChange {
     enum class Next {
         kWait,    // for more answers
         kDone,    // all have changed
-        kGoBack,  // somebody refused: ask all for what they had
-        kUndone,  // all have what they had
+        kGoBack,  // a server refused: ask all for the setup before
+        kUndone,  // all have the setup before
         kStuck,   // a server refuses to go back
     };
 
     // All of so many servers (at least 1) are being asked.
     void begin(std::size_t servers);
-    // A server's answer; empty: it has changed. Not expected when nothing is under way.
+    // A server's answer: empty if it has changed, else why not. Only while a change is under way.
     Next on_answer(const std::string& refused);
 
     bool going_back() const { return going_back_; }

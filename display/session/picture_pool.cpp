@@ -12,7 +12,7 @@ std::shared_ptr<Picture> PicturePool::take() {
             picture = std::move(shelf_->pictures.back());
             shelf_->pictures.pop_back();
         }
-        // So that there is room when it comes back, where nothing may fail.
+        // Makes room for its return, which must not fail.
         shelf_->pictures.reserve(shelf_->pictures.size() + ++shelf_->out);
     }
     if (!picture) picture = std::make_unique<Picture>();

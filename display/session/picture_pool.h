@@ -7,18 +7,18 @@
 
 namespace swath {
 
-// Pictures that are used again, so that megabytes need not be allocated for each frame. A picture goes back
-// when its last holder lets it go, on whichever thread that is, and may outlive the pool. Any thread.
+// Keeps pictures for reuse, so that megabytes need not be allocated for each frame. A picture comes back when
+// its last holder releases it, on whichever thread that is, and may outlive the pool. Any thread.
 class PicturePool {
   public:
-    // It holds what it held: whoever takes it fills it.
+    // The picture has old contents; the caller fills it.
     std::shared_ptr<Picture> take();
 
   private:
     struct Shelf {
         std::mutex mutex;
-        std::vector<std::unique_ptr<Picture>> pictures;  // guarded by mutex, as is
-        std::size_t out = 0;                             // how many are out
+        std::vector<std::unique_ptr<Picture>> pictures;  // mutex guards this
+        std::size_t out = 0;                             // and this: how many are out
     };
     std::shared_ptr<Shelf> shelf_ = std::make_shared<Shelf>();
 };

@@ -39,7 +39,7 @@ bool DisplaySession::on_closed(const std::shared_ptr<Connection>& connection, co
         if (server->second != connection) continue;
         const ServerId id = server->first;
         servers_.erase(server);
-        if (why) break;  // a Bye: it has left, or the client has ended the run and it heard of that first
+        if (why) break;  // a Bye: it has left, or heard before us that the client has ended the run
         spdlog::warn("lost server {} ({}): {}", index(id), connection->peer(), why.error().message);
         if (!stopped_) tell(Lost{id, why.error().message});
         break;
@@ -80,7 +80,7 @@ Status DisplaySession::on_setup(const DisplaySetup& setup) {
     return {};
 }
 
-// The number of those who look.
+// Returns the number of viewers.
 std::uint32_t DisplaySession::begin_viewing() {
     const std::weak_ptr<DisplaySession> weak = weak_from_this();
     ViewerHost::Callbacks callbacks;

@@ -16,12 +16,12 @@
 
 namespace swath {
 
-// One client's run on the display. It does what Assembly decides. A complete picture is encoded before its
-// frame is reported, so that encoding slower than rendering holds the client back instead of piling up.
-// Viewers, if there may be any, get the same pictures and hold nobody back.
+// A client's run on the display. It does what Assembly decides. A complete picture is encoded before its
+// frame is reported, so that slow encoding holds the client back instead of piling up. Viewers get the same
+// pictures and hold nobody back.
 class DisplaySession final : public Session, public std::enable_shared_from_this<DisplaySession> {
   public:
-    // `viewers`, null if nobody can look, outlives the session.
+    // `viewers` outlives the session; null if nobody can look.
     DisplaySession(boost::asio::io_context& io, const Clock& clock, ViewerHost* viewers,
                    std::shared_ptr<Connection> client);
 
@@ -59,7 +59,7 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     std::shared_ptr<Connection> client_;
     DisplaySetup setup_;
     bool stopped_ = false;
-    // The newest wish that the client does not have yet; it gets one at a time, so that it never works off
+    // The newest wish that the client does not have yet. It gets one at a time, so that it never works off
     // old ones.
     std::optional<std::pair<ViewerId, std::string>> next_wish_;
     bool wish_under_way_ = false;  // until the client's next state note

@@ -13,8 +13,8 @@ namespace swath {
 struct ServerOptions {
     Address listen{"127.0.0.1", 0};
     std::filesystem::path cache;                             // of models
-    std::uint64_t max_model_bytes = std::uint64_t{8} << 30;  // that a client may send
-    std::size_t threads = 1;  // that cull and cast rays, the drawing one among them
+    std::uint64_t max_model_bytes = std::uint64_t{8} << 30;  // the most that a client may send
+    std::size_t threads = 1;                                 // cull and cast rays, the drawing one among them
     Nanoseconds connect_patience = std::chrono::seconds(5);  // with peers and the display
     WireTiming timing;
 };

@@ -9,8 +9,8 @@
 
 namespace swath {
 
-// A server's part of a frame as facts for FrameSwap: whom it sends pixels to, whom it awaits pixels from, and
-// whether the display awaits a tile.
+// A server's task as FrameSwap sees it: the servers that it sends pixels to, those that it awaits pixels
+// from, and whether the display awaits a tile.
 struct SwapTask {
     FrameNumber frame = 0;
     std::vector<ServerId> outgoing;
@@ -18,14 +18,14 @@ struct SwapTask {
     bool has_tile = false;
 };
 
-// What FrameSwap wants done.
+// An order from FrameSwap.
 struct SwapAction {
     enum class Kind {
         kDraw,       // cull, draw and read back; then on_drawn
         kSendSwath,  // to `peer`
-        kComposite,  // what came from `peer`
+        kComposite,  // the swath from `peer`
         kSendTile,   // to the display
-        kFinished,   // the frame is over here: report it
+        kFinished,   // the server's work for the frame is over: report it
     };
     Kind kind{};
     FrameNumber frame = 0;
@@ -33,11 +33,11 @@ struct SwapAction {
     bool operator==(const SwapAction&) const = default;
 };
 
-// Decides what a server does for its frames (Samanta 2000, section 4, phases 2 and 3; pixels are merged in
-// host memory): swaths go out as soon as the frame is drawn, what peers send is merged as it comes, in any
-// order, and the tile goes out with the last piece. Sans-I/O: events in, actions out, in the order to do
-// them; the server drives it from its sockets and the simulator from its event queue. Several frames may be
-// open at once. Not thread-safe.
+// Decides what a server does for its frames (Samanta 2000, section 4, phases 2 and 3; it composites in host
+// memory): swaths go out as soon as the frame is drawn, peers' swaths are composited as they come, in any
+// order, and the tile goes out after the last. Sans-I/O: events in, actions out, in the order to do them; the
+// server drives it from its sockets and the simulator from its event queue. Several frames may be open at
+// once. Not thread-safe.
 class FrameSwap {
   public:
     explicit FrameSwap(std::size_t frames_in_flight) : gather_(frames_in_flight) {}

@@ -81,7 +81,7 @@ TEST(Notes, SayWhichRenderersTheServersHaveInTurn) {
     EXPECT_EQ(choices(), R"(["osmesa","egl","raycast","raycast,osmesa"])");
     ASSERT_TRUE(live.on_wish(R"({"id":1,"renderer":"raycast"})", 1));
     EXPECT_EQ(Json::parse(state_note(live, "", ""))["renderer"], "raycast");
-    EXPECT_EQ(choices(), R"(["osmesa","egl","raycast","raycast,osmesa"])");  // osmesa can be chosen again
+    EXPECT_EQ(choices(), R"(["osmesa","egl","raycast","raycast,osmesa"])");  // the list can be chosen again
 }
 
 TEST(Notes, OfTheSessionSayWhatThereIsToChooseFrom) {
