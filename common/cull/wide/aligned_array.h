@@ -6,8 +6,8 @@
 
 namespace swath {
 
-// Numbers that begin at a cache line and are not initialised: a large one costs no memory where nothing was
-// written. Movable, not copied.
+// An array of numbers that begins at a cache line and is not initialised, so that a large one costs no memory
+// where nothing was written. It moves and is not copied.
 template <class T>
 class AlignedArray {
   public:

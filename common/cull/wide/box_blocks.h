@@ -8,13 +8,13 @@
 
 namespace swath {
 
-// Boxes as wide culls read them: blocks of 16, an array for each coordinate (see hierarchy_kernel.h). 24
-// bytes a box. The last block is filled up with copies of the last box, which no cull reports.
+// Boxes as wide culls read them: in blocks of 16, with an array for each coordinate (see hierarchy_kernel.h),
+// 24 bytes a box. Copies of the last box, which no cull reports, fill the last block.
 class BoxBlocks {
   public:
-    // At most 2^31.
+    // At most 2^31 boxes.
     explicit BoxBlocks(std::span<const Box> boxes);
-    // As many as there were.
+    // Replaces the boxes by as many.
     void assign(std::span<const Box> boxes);
 
     std::uint32_t size() const { return size_; }

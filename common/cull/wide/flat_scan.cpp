@@ -7,7 +7,7 @@
 namespace swath {
 namespace {
 
-constexpr double kBoxNs = 0.5;  // about
+constexpr double kBoxNs = 0.5;  // about the time that a box takes
 constexpr std::size_t kPartsAMember = 16;
 
 }  // namespace

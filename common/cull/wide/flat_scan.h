@@ -14,11 +14,11 @@
 
 namespace swath {
 
-// Tests every box, 16 at once: what a hierarchy has to beat, and what is best where order makes none useful.
-// O(n), limited by reading 24 bytes a box. Contracts as for WideHierarchy.
+// Tests every box, 16 at once. A hierarchy must beat it, and it is best where the boxes' order makes a
+// hierarchy useless. O(n), limited by reading 24 bytes a box. The contracts are WideHierarchy's.
 class FlatScan {
   public:
-    // Reads the boxes of `blocks`, which must outlive it.
+    // `blocks` must outlive it.
     FlatScan(const BoxBlocks& blocks, ThreadTeam& team, InstructionSet instructions = best_instruction_set(),
              SharingMode mode = SharingMode::kWhenItPays);
 

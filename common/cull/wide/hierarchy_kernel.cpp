@@ -8,18 +8,18 @@ namespace {
 
 constexpr float kInfinity = __builtin_inff();
 
-// The lanes that exist of a block, of a level of `count` boxes.
+// The lanes of a block that hold boxes, on a level of `count` boxes.
 inline std::uint32_t lanes_of(std::uint32_t count, std::uint32_t block) {
     const std::uint32_t rest = count - 16 * block;
     return rest >= 16 ? 0xffffu : (1u << rest) - 1;
 }
 
-// Of what may not exist too.
+// The block need not exist.
 inline void prefetch_block(const float* block) {
     for (int line = 0; line < 6; ++line) __builtin_prefetch(block + 16 * line);
 }
 
-// Blocks that fit into a first-level cache, so that the second three planes find them there.
+// So many blocks fit into a first-level cache, where the second three planes find them again.
 constexpr std::uint32_t kTile = 64;
 
 std::uint32_t* scan(const float* blocks, std::uint32_t count, const KernelPlane* planes,
@@ -58,12 +58,11 @@ inline std::uint32_t* walk_leaf(const WideWalk& walk, std::uint32_t block, std::
     return packed(out, add(all(16 * block), load(kCounting)), kept);
 }
 
-// Of the 16 children of an inner block: which are not outside, which of these are not inside either, and
-// which planes each of those crosses.
+// How the 16 children of an inner block lie to the frustum.
 struct Children {
-    std::uint32_t kept;
-    std::uint32_t crossing;
-    alignas(64) std::uint32_t planes[16];
+    std::uint32_t kept;                    // a bit for each child that is not outside
+    std::uint32_t crossing;                // a bit for each of those that is not inside either
+    alignas(64) std::uint32_t planes[16];  // the planes that each crosses, a bit each
 };
 
 inline bool test(WideWalk& walk, int level, WidePiece piece, Children& children) {
@@ -83,18 +82,18 @@ inline bool test(WideWalk& walk, int level, WidePiece piece, Children& children)
     return kept != 0;
 }
 
-// The ids of children [first, last) of a block that lies at `level`.
+// Writes the ids below the children [first, last) on `level`.
 inline std::uint32_t* fill_children(const WideWalk& walk, int level, std::uint32_t first, std::uint32_t last,
                                     std::uint32_t* out) {
-    const std::uint64_t begin = std::uint64_t{first} << 4 * level;  // 32 bits do not shift by 32
+    const std::uint64_t begin = std::uint64_t{first} << 4 * level;  // 32 bits cannot be shifted by 32
     const std::uint64_t end = std::uint64_t{last} << 4 * level;
     const std::uint32_t count = walk.levels[0].count;
     return fill(static_cast<std::uint32_t>(begin), end < count ? static_cast<std::uint32_t>(end) : count,
                 out);
 }
 
-// Takes from `kept` the run of children that begins with the lowest and lie inside, and writes their ids.
-// Nothing, if that one crosses a plane.
+// Takes children from `kept`, from the lowest on, as long as they lie inside, and writes the ids below them.
+// Takes none if the lowest crosses a plane.
 inline std::uint32_t* take_inside(const WideWalk& w, int level, std::uint32_t block, const Children& children,
                                   std::uint32_t& kept, std::uint32_t* out) {
     const auto i = static_cast<std::uint32_t>(__builtin_ctz(kept));
@@ -109,7 +108,7 @@ inline void prefetch_crossing(const WideWalk& w, int level, std::uint32_t block,
                        kBlockFloats * (16 * block + static_cast<std::uint32_t>(__builtin_ctz(ahead))));
 }
 
-// Of a block at level 1 that was tested: the blocks below.
+// Walks the blocks below a block on level 1 that was tested.
 std::uint32_t* walk_leaves(WideWalk& w, std::uint32_t block, const Children& children, std::uint32_t* out) {
     w.work.leaf_blocks += static_cast<unsigned>(__builtin_popcount(children.crossing));
     std::uint32_t kept = children.kept;
@@ -125,12 +124,12 @@ std::uint32_t* walk_leaves(WideWalk& w, std::uint32_t block, const Children& chi
     return out;
 }
 
-// Of a block at level 2 that was tested: each child is tested one ahead of the leaves below the one before
-// it, so that memory has the time to bring its own.
+// Walks the blocks below a block on level 2 that was tested. It tests a child before it walks the leaves of
+// the child before, so that there is time to fetch the new child's leaves.
 std::uint32_t* walk_pairs(WideWalk& w, std::uint32_t block, const Children& children, std::uint32_t* out) {
     Children tested[2];
     std::uint32_t turn = 0;
-    std::uint32_t waiting = 0;  // which block's are in tested[turn]
+    std::uint32_t waiting = 0;  // the block whose children are in tested[turn]
     bool waits = false;
     std::uint32_t kept = children.kept;
     while (kept != 0) {

@@ -6,27 +6,27 @@
 
 namespace swath {
 
-// A block is 16 boxes in the layout that kernels read: six arrays of 16 numbers, in this order:
-// min.x min.y min.z max.x max.y max.z. Blocks begin at multiples of 64 bytes.
+// A block is 16 boxes as six arrays of 16 numbers: min.x min.y min.z max.x max.y max.z. It begins at a
+// multiple of 64 bytes.
 inline constexpr std::size_t kBlockBoxes = 16;
 inline constexpr std::size_t kBlockFloats = 6 * kBlockBoxes;
 inline constexpr int kMaxWideLevels = 8;  // 16^8 boxes
 
-// What kernels see of a WideHierarchy. Child i of block b at level l > 0 is block 16 b + i at level l - 1;
-// the boxes of level 0 are the objects. `count` numbers of each level are real, the rest of its last block is
-// not.
+// A level of a WideHierarchy as kernels see it. Child i of block b on level l > 0 is block 16 b + i on level
+// l - 1; the boxes on level 0 are those that are culled. A level has `count` boxes; the rest of its last
+// block is padding.
 struct WideLevel {
     const float* blocks;
     std::uint32_t count;
 };
 
-// What a walk did, for those who plan the next one.
+// The work of a walk, from which the next one is planned.
 struct WideWork {
-    std::uint64_t inner_blocks = 0;  // tested, above level 0
-    std::uint64_t leaf_blocks = 0;   // tested, at level 0
+    std::uint64_t inner_blocks = 0;  // tested above level 0
+    std::uint64_t leaf_blocks = 0;   // tested on level 0
 };
 
-// A block that crosses the planes of a mask, or (no planes) that lies inside.
+// A block that crosses the planes of a mask. Without planes it lies inside.
 struct WidePiece {
     std::uint32_t block;
     std::uint32_t planes;
@@ -38,23 +38,23 @@ struct WideWalk {
     WideWork work;
 };
 
-// Each writes ids ascending from `out` and returns the place after the last. They may scribble over the rest
-// of the walked blocks' own places, never beyond: places for 16 ids a block are enough.
+// The kernels of an instruction set. They write from `out` on, ascending, and return the end. They may
+// scribble behind it, but not beyond the places for 16 ids a block.
 struct HierarchyKernels {
-    // The boxes [0, count) of `blocks`, each numbered from `first_id`, that are not outside of the six
-    // planes.
+    // Writes the ids, counted from `first_id`, of those of `count` boxes that are not outside of six planes.
     std::uint32_t* (*scan)(const float* blocks, std::uint32_t count, const KernelPlane* planes,
                            std::uint32_t first_id, std::uint32_t* out);
-    // The objects below a block of `level` that are not outside of the planes in piece.planes.
+    // Writes the ids of the boxes below a block on `level` that are not outside of the planes in
+    // piece.planes.
     std::uint32_t* (*walk)(WideWalk& walk, int level, WidePiece piece, std::uint32_t* out);
-    // The blocks of level `to` < level below a block of `level` that are not outside. `out` needs places for
-    // all.
+    // Writes the blocks on level `to` < level, below a block on `level`, that are not outside. `out` needs
+    // places for all.
     WidePiece* (*pieces)(WideWalk& walk, int level, WidePiece piece, int to, WidePiece* out);
-    // How many blocks of level 1 below a block of `level` > 1 cross a plane.
+    // Counts the blocks on level 1 below a block on `level` > 1 that cross a plane.
     std::uint32_t (*crossing)(WideWalk& walk, int level, WidePiece piece);
-    // The bounds of `count` boxes' blocks become boxes of the next level, `parents`: the last is repeated to
-    // the end of its block. `of_objects`: the boxes may be empty, infinite or no numbers; their bounds then
-    // hold whatever the box's corners hold, and a coordinate that is not finite counts as both infinities.
+    // Makes the bounds of each block of `count` boxes a box of the next level, `parents`, and pads its last
+    // block with the last box. With `of_objects` boxes may be empty, infinite or NaN: their bounds contain
+    // all corners of a box, and a coordinate that is not finite counts as both infinities.
     void (*bound)(const float* blocks, std::uint32_t count, bool of_objects, float* parents);
 };
 

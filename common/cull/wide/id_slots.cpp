@@ -9,7 +9,7 @@
 namespace swath {
 namespace {
 
-// The last part ends soon, unless somebody took its core away.
+// Yields first, because the last part ends soon unless it has lost its core.
 void await(const std::atomic<bool>& done) {
     constexpr int kYields = 100;
     for (int i = 0; i < kYields; ++i) {
@@ -30,7 +30,7 @@ std::span<const std::uint32_t> IdSlots::share(ThreadTeam& team, std::size_t memb
     const std::size_t parts = begins.size();
     if (parts == 0) return {};
     ends_.resize(parts);
-    // Here, since nothing below may throw: others would wait for what it does.
+    // This is here because nothing below may throw: other members would wait for ever.
     if (together_.size() == 0) together_ = AlignedArray<std::uint32_t>(capacity_);
     std::atomic<std::size_t> next{0};
     std::atomic<std::size_t> left{parts};

@@ -6,8 +6,8 @@ namespace swath {
 // A plane of a frustum as kernels take it.
 struct KernelPlane {
     float x, y, z, w;
-    // Of the x, y and z arrays of a block's six, where those with the p-vertex's and the n-vertex's
-    // coordinates begin, in numbers.
+    // Where in a block the arrays with the x, y and z of the p-vertex, and of the n-vertex, begin, in
+    // numbers.
     std::uint32_t p[3];
     std::uint32_t n[3];
 };

@@ -11,14 +11,14 @@ namespace {
 
 alignas(64) constexpr std::uint32_t kCounting[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-// plane_distance() of frustum.h, for 16 boxes at once: `at` is plane.p or plane.n.
+// plane_distance() of frustum.h for 16 boxes at once. `at` is plane.p or plane.n.
 inline Floats distance(const KernelPlane& plane, const float* block, const std::uint32_t (&at)[3]) {
     return fused(
         all(plane.x), load(block + at[0]),
         fused(all(plane.y), load(block + at[1]), fused(all(plane.z), load(block + at[2]), all(plane.w))));
 }
 
-// Three planes and where their p-vertices are: as many as fit into registers.
+// Three planes with their p-vertices, as many as fit into registers.
 struct ThreePlanes {
     explicit ThreePlanes(const KernelPlane* planes) {
         for (int k = 0; k < 3; ++k) {
@@ -44,7 +44,7 @@ struct ThreePlanes {
     std::size_t at[3][3];
 };
 
-// The ids [first, last), in steps of 16 and, if no more than 8 are left, of 8: scribbles no further.
+// Writes the ids [first, last) in steps of 16, and the last 8 or fewer in one of 8. Scribbles no further.
 inline std::uint32_t* fill(std::uint32_t first, std::uint32_t last, std::uint32_t* out) {
     Words ids = add(all(first), load(kCounting));
     const Words step = all(16u);

@@ -3,10 +3,10 @@
 namespace swath {
 namespace {
 
-// How many blocks of a scan take as long as one of a walk, which reads here and there, decides and calls.
-// Measured: 1.5 to 2.2 in caches, to 3 beyond.
+// So many blocks of a scan take as long as one of a walk, which reads here and there, decides and calls. We
+// measured 1.5 to 2.2 in caches and up to 3 beyond.
 constexpr double kWalkCost = 2.5;
-// Up to this many blocks a scan is over before a walk has begun.
+// A scan of at most so many blocks is over before a walk has begun.
 constexpr std::uint32_t kFewBlocks = 64;
 
 }  // namespace
@@ -14,10 +14,9 @@ constexpr std::uint32_t kFewBlocks = 64;
 WideCuller::WideCuller(std::span<const Box> boxes, ThreadTeam& team, InstructionSet instructions)
     : hierarchy_(boxes, team, instructions), scan_(hierarchy_.blocks(), team, instructions) {}
 
-// What the last frame showed of the order holds no longer.
 void WideCuller::refit(std::span<const Box> boxes) {
     hierarchy_.refit(boxes);
-    small_ = false;
+    small_ = false;  // the last frame says nothing of boxes that have moved
 }
 
 bool WideCuller::better_scanned(const Frustum& frustum) {
@@ -28,7 +27,7 @@ bool WideCuller::better_scanned(const Frustum& frustum) {
 }
 
 std::span<const std::uint32_t> WideCuller::cull(const Frustum& frustum) {
-    // A frame like the last, in most cases: no question then.
+    // Most frames are like the last, so a small one is not followed by the question.
     scanned_ = !small_ && better_scanned(frustum);
     if (scanned_) return scan_.cull(frustum);
     const auto visible = hierarchy_.cull(frustum);

@@ -8,16 +8,16 @@
 
 namespace swath {
 
-// The hierarchy, and the flat scan for frames in which it would have to look at so much that scanning
-// everything is quicker: boxes in an order in which neighbours are far from each other. Which one it takes
-// follows from counts, never from a clock, and shows in nothing but the time.
+// The culler that we use: the hierarchy, or the flat scan for frames in which the hierarchy would test so
+// much that scanning all is quicker, as with boxes whose neighbours in order are far away. The choice follows
+// from counts, never from a clock, and changes nothing but the time.
 class WideCuller final : public Culler {
   public:
     WideCuller(std::span<const Box> boxes, ThreadTeam& team,
                InstructionSet instructions = best_instruction_set());
 
     std::span<const std::uint32_t> cull(const Frustum& frustum) override;
-    // O(n), and allocates nothing. Boxes that have lost their order are the more often scanned.
+    // O(n), and allocates nothing. The more boxes lose their order, the more often they are scanned.
     void refit(std::span<const Box> boxes) override;
     bool scanned() const { return scanned_; }  // the last frame was a flat scan
 
@@ -27,9 +27,9 @@ class WideCuller final : public Culler {
     WideHierarchy hierarchy_;
     FlatScan scan_;
     bool scanned_ = false;
-    bool small_ = false;  // the last frame tested but a little of the hierarchy
-    // Of the blocks below a node of 256 boxes that crosses a plane, the part that does so too: what tells a
-    // good order from a bad one. From the last frame that shows it; this is about a good one's.
+    bool small_ = false;  // the last frame tested little of the hierarchy
+    // Of the blocks below a node of 256 boxes that crosses a plane, the part that crosses one, too, as the
+    // last frame showed it. It tells a good order from a bad one; a good one's is about this.
     double crossing_part_ = 0.4;
 };
 

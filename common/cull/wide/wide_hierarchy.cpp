@@ -8,11 +8,11 @@
 namespace swath {
 namespace {
 
-// What testing a block and writing an id take, about, in nanoseconds: to tell large frames from small ones.
+// About what testing a block and writing an id take, to tell large frames from small ones.
 constexpr double kBlockNs = 6;
 constexpr double kIdNs = 0.05;
 
-// More parts than members, so that none waits long for the last, and blocks enough to make them of.
+// There are more parts than members, so that none waits long for the last, and enough blocks for the parts.
 constexpr std::size_t kPartsAMember = 16;
 constexpr std::size_t kBlocksAMember = 64;
 
@@ -37,7 +37,7 @@ std::array<KernelPlane, 6> kernel_planes(const Frustum& frustum) {
         const glm::vec4& plane = frustum.planes[k];
         planes[k] = {plane.x, plane.y, plane.z, plane.w, {}, {}};
         for (std::uint32_t axis = 0; axis < 3; ++axis) {
-            const bool up = plane[static_cast<int>(axis)] >= 0;  // as frustum.h has it
+            const bool up = plane[static_cast<int>(axis)] >= 0;  // as in frustum.h
             planes[k].p[axis] = 16 * axis + (up ? 48 : 0);
             planes[k].n[axis] = 16 * axis + (up ? 0 : 48);
         }
@@ -100,7 +100,7 @@ std::uint32_t WideHierarchy::crossing_nodes(const Frustum& frustum) const {
     return kernels_.crossing(walk, static_cast<int>(levels_.size()) - 1, {0, kAllPlanes});
 }
 
-// The highest level with blocks enough.
+// The highest level with enough blocks, else 0.
 int WideHierarchy::split_level(std::size_t members) const {
     int level = static_cast<int>(levels_.size()) - 1;
     while (level > 0 &&
