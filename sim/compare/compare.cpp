@@ -48,10 +48,9 @@ Status add(Curve& curve, std::size_t servers, double speedup, std::string_view f
 }
 
 Status add_table(const Input& input, std::string_view text, std::vector<Curve>& curves) {
-    const auto rows = parse_table(text, input.file);
-    if (!rows) return tl::unexpected(rows.error());
+    SWATH_TRY(const auto rows, parse_table(text, input.file));
     std::vector<Curve> found;
-    for (const Row& row : *rows) {
+    for (const Row& row : rows) {
         if (row.column != kColumn && row.column != kFullColumn) continue;
         const std::string name =
             fmt::format("{}, {}{}", row.algorithm, row.model, row.column == kFullColumn ? ", full mode" : "");
@@ -60,7 +59,7 @@ Status add_table(const Input& input, std::string_view text, std::vector<Curve>& 
                         row.servers);
         auto curve = std::ranges::find(found, name, &Curve::name);
         if (curve == found.end()) curve = found.insert(found.end(), {input.label, name, {}});
-        if (const Status added = add(*curve, row.servers, row.value, input.file); !added) return added;
+        SWATH_TRY_VOID(add(*curve, row.servers, row.value, input.file));
     }
     if (found.empty()) return fail("{}: no row has the column {}", input.file, kColumn);
     curves.insert(curves.end(), found.begin(), found.end());
@@ -74,17 +73,16 @@ struct Run {
 };
 
 Result<Run> read_run(const Input& input, std::string_view text) {
-    const auto frames = parse_timeline(text, input.file);
-    if (!frames) return tl::unexpected(frames.error());
+    SWATH_TRY(const auto frames, parse_timeline(text, input.file));
     std::set<std::string_view> servers;
     bool is_single = false;
-    for (const FrameTimeline& frame : *frames)
+    for (const FrameTimeline& frame : frames)
         for (const MachineTimeline& machine : frame.machines) {
             if (is_server(machine.machine)) servers.insert(machine.machine);
             is_single |= machine.machine == kSingleMachine;
         }
     if (servers.empty() && !is_single) return fail("{}: the timeline names no server", input.file);
-    const double rate = summarise(*frames).frames_per_s;
+    const double rate = summarise(frames).frames_per_s;
     if (!(rate > 0)) return fail("{}: the timeline takes no time", input.file);
     return Run{std::max<std::size_t>(servers.size(), 1), rate};
 }
@@ -137,31 +135,24 @@ Result<std::vector<Curve>> read_curves(std::span<const std::string> inputs) {
     std::set<std::string> labels_of_tables;
     std::set<std::string> labels_of_runs;
     for (const std::string& text : inputs) {
-        const auto input = parse_input(text);
-        if (!input) return tl::unexpected(input.error());
-        const auto bytes = read_file(input->file, kMaxFileBytes);
-        if (!bytes) return tl::unexpected(bytes.error());
-        const std::string_view content(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+        SWATH_TRY(const auto input, parse_input(text));
+        SWATH_TRY(const auto bytes, read_file(input.file, kMaxFileBytes));
+        const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         const bool is_run = content.starts_with(kTimelineHeader);
-        if ((is_run ? labels_of_tables : labels_of_runs).contains(input->label) ||
-            (!is_run && !labels_of_tables.insert(input->label).second))
-            return fail("{}: another input is called {} too; label it LABEL=FILE", input->file, input->label);
+        if ((is_run ? labels_of_tables : labels_of_runs).contains(input.label) ||
+            (!is_run && !labels_of_tables.insert(input.label).second))
+            return fail("{}: another input is called {} too; label it LABEL=FILE", input.file, input.label);
         if (!is_run) {
-            if (const Status added = add_table(*input, content, curves); !added)
-                return tl::unexpected(added.error());
+            SWATH_TRY_VOID(add_table(input, content, curves));
             continue;
         }
-        const auto run = read_run(*input, content);
-        if (!run) return tl::unexpected(run.error());
-        if (labels_of_runs.insert(input->label).second) curves.push_back({input->label, input->label, {}});
-        Curve& curve = *std::ranges::find(curves, input->label, &Curve::label);
-        if (const Status added = add(curve, run->servers, run->frames_per_s, input->file); !added)
-            return tl::unexpected(added.error());
+        SWATH_TRY(const auto run, read_run(input, content));
+        if (labels_of_runs.insert(input.label).second) curves.push_back({input.label, input.label, {}});
+        Curve& curve = *std::ranges::find(curves, input.label, &Curve::label);
+        SWATH_TRY_VOID(add(curve, run.servers, run.frames_per_s, input.file));
     }
     for (Curve& curve : curves)
-        if (labels_of_runs.contains(curve.label))
-            if (const Status divided = divide_by_one_server(curve); !divided)
-                return tl::unexpected(divided.error());
+        if (labels_of_runs.contains(curve.label)) SWATH_TRY_VOID(divide_by_one_server(curve));
     return curves;
 }
 
@@ -171,7 +162,7 @@ Status write_comparison(std::span<const Curve> curves, const fs::path& folder) {
         for (const auto& [servers, speedup] : curve.points)
             rows.push_back({curve.name, curve.label, servers, std::string(kColumn), speedup});
     const std::string csv = to_csv(rows);
-    if (const Status written = write_file(folder / "compare.csv", csv); !written) return written;
+    SWATH_TRY_VOID(write_file(folder / "compare.csv", csv));
     return draw(plot_of(curves), folder / "compare");
 }
 

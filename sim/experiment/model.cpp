@@ -6,9 +6,8 @@ namespace swath::sim {
 
 Result<StudyModel> load_study_model(const std::string& name, const std::string& file,
                                     const Granularity& granularity) {
-    auto mesh = load_model(file);
-    if (!mesh) return tl::unexpected(mesh.error());
-    return StudyModel{name, build_objects(std::move(*mesh), granularity)};
+    SWATH_TRY(auto mesh, load_model(file));
+    return StudyModel{name, build_objects(std::move(mesh), granularity)};
 }
 
 Result<Paths> make_paths(const PathSpec& spec, const Box& bounds, int width, int height) {
@@ -20,9 +19,8 @@ Result<Paths> make_paths(const PathSpec& spec, const Box& bounds, int width, int
         options.seed = spec.seed + k;
         options.aspect = static_cast<float>(width) / static_cast<float>(height);
         options.zoom = static_cast<float>(spec.zoom);
-        auto cameras = make_path(spec.path, bounds, options);
-        if (!cameras) return tl::unexpected(cameras.error());
-        paths.push_back(std::move(*cameras));
+        SWATH_TRY(auto cameras, make_path(spec.path, bounds, options));
+        paths.push_back(std::move(cameras));
     }
     return paths;
 }

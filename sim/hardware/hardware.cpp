@@ -58,9 +58,8 @@ Result<Hardware> find_hardware(const std::string& name_or_file) {
     if (!name_or_file.ends_with(kSuffix))
         return fail("unknown hardware '{}': the built-in profiles are {}; a file's name ends in {}",
                     name_or_file, fmt::join(builtin_hardware(), ", "), kSuffix);
-    const Result<Buffer> file = read_file(name_or_file, kMaxFileBytes);
-    if (!file) return tl::unexpected(file.error());
-    return parse_profile({reinterpret_cast<const char*>(file->data()), file->size()},
+    SWATH_TRY(const Buffer file, read_file(name_or_file, kMaxFileBytes));
+    return parse_profile({reinterpret_cast<const char*>(file.data()), file.size()},
                          std::filesystem::path(name_or_file).stem().string(), name_or_file);
 }
 

@@ -63,15 +63,11 @@ class Setter {
         : hardware_(hardware), key_(key), node_(node) {}
 
     Status operator()(double& (*place)(Hardware&)) const {
-        const Result<double> value = quantity();
-        if (!value) return tl::unexpected(value.error());
-        place(hardware_) = *value;
+        SWATH_TRY(place(hardware_), quantity());
         return {};
     }
     Status operator()(std::optional<double>& (*place)(Hardware&)) const {
-        const Result<double> value = quantity();
-        if (!value) return tl::unexpected(value.error());
-        place(hardware_) = *value;
+        SWATH_TRY(place(hardware_), quantity());
         return {};
     }
     Status operator()(bool& (*place)(Hardware&)) const {
@@ -125,11 +121,11 @@ class Reader {
             return fail("{}: {}", at(error.source()), error.description());
         }
         if (const toml::node* node = table.get(kBase)) {
-            if (const Status taken = take_base(*node); !taken) return tl::unexpected(taken.error());
+            SWATH_TRY_VOID(take_base(*node));
             table.erase(kBase);
         }
-        if (const Status taken = take(table, ""); !taken) return tl::unexpected(taken.error());
-        if (const Status all = complete(); !all) return tl::unexpected(all.error());
+        SWATH_TRY_VOID(take(table, ""));
+        SWATH_TRY_VOID(complete());
         if (!base_.empty() && !set_.contains("about"))
             hardware_.about = fmt::format("{} with {} changed", base_,
                                           set_.empty() ? "nothing" : fmt::to_string(fmt::join(set_, ", ")));
@@ -148,11 +144,10 @@ class Reader {
             return fail("{}: base: {}, expected one of {}", at(node.source()),
                         node.is_string() ? fmt::format("\"{}\"", base) : std::string(kind_of(node)),
                         known_profiles());
-        auto parsed = parse_hardware(builtin->toml, base);
-        if (!parsed) return tl::unexpected(parsed.error());
+        SWATH_TRY(auto parsed, parse_hardware(builtin->toml, base));
         base_ = base;
-        parsed->name = hardware_.name;
-        hardware_ = std::move(*parsed);
+        parsed.name = hardware_.name;
+        hardware_ = std::move(parsed);
         return {};
     }
 
@@ -175,7 +170,7 @@ class Reader {
             if (!node.is_table())
                 return fail("{}: {}: {}, expected the table [{}]", at(node.source()), key, kind_of(node),
                             key);
-            if (const Status taken = take(*node.as_table(), section); !taken) return taken;
+            SWATH_TRY_VOID(take(*node.as_table(), section));
         }
         return {};
     }

@@ -9,17 +9,13 @@
 namespace swath::sim {
 
 Result<Picture> render_view(const ObjectSet& scene, const View& view, const Rgb& background) {
-    auto renderer = make_renderer(RendererSetup{}, scene);
-    if (!renderer) return tl::unexpected(renderer.error());
+    SWATH_TRY(auto renderer, make_renderer(RendererSetup{}, scene));
     std::vector<ObjectId> all(scene.objects.size());
     std::iota(all.begin(), all.end(), ObjectId{0});
-    if (const auto status = (*renderer)->draw(whole_objects(scene.objects, all), view, view.viewport());
-        !status)
-        return tl::unexpected(status.error());
+    SWATH_TRY_VOID(renderer->draw(whole_objects(scene.objects, all), view, view.viewport()));
     PixelFrame pixels;
     pixels.reshape(view.viewport());
-    if (const auto status = (*renderer)->read(view.viewport(), pixels); !status)
-        return tl::unexpected(status.error());
+    SWATH_TRY_VOID(renderer->read(view.viewport(), pixels));
     return to_picture(pixels, background);
 }
 

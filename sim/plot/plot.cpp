@@ -151,9 +151,7 @@ Result<std::string> script_of(const Plot& plot) {
         if (series.points.empty()) continue;
         script += fmt::format("$data{} << END\n", i);
         for (const auto& [x, y] : series.points) {
-            for (const double value : {x, y})
-                if (const Status drawable = check_number(value, series.name); !drawable)
-                    return tl::unexpected(drawable.error());
+            for (const double value : {x, y}) SWATH_TRY_VOID(check_number(value, series.name));
             for (const auto& [value, logarithmic] : {std::pair{x, plot.log2_x}, std::pair{y, plot.log10_y}})
                 if (logarithmic && value <= 0)
                     return fail("cannot draw '{}': {} is not on a logarithmic axis", printable(series.name),
@@ -190,8 +188,7 @@ Result<std::string> script_of(const Bars& bars) {
             CHECK(bar.values.size() == bars.segments.size());
             double bottom = 0;
             for (std::size_t i = 0; i < bar.values.size(); ++i) {
-                if (const Status drawable = check_number(bar.values[i], bars.segments[i]); !drawable)
-                    return tl::unexpected(drawable.error());
+                SWATH_TRY_VOID(check_number(bar.values[i], bars.segments[i]));
                 if (bar.values[i] < 0)
                     return fail("cannot draw '{}': {} is less than 0", printable(bars.segments[i]),
                                 bar.values[i]);
@@ -224,16 +221,15 @@ Result<std::string> script_of(const Bars& bars) {
     return script + command + '\n';
 }
 
-Status draw_both(const Result<std::string>& script, const std::vector<std::string>& legend,
+Status draw_both(const std::string& script, const std::vector<std::string>& legend,
                  const std::filesystem::path& stem) {
-    if (!script) return tl::unexpected(script.error());
     const Canvas canvas = canvas_for(legend);
     for (const auto& [terminal, suffix] :
          {std::pair{svg_of(canvas), ".svg"}, std::pair{png_of(canvas), ".png"}}) {
         const std::string file = stem.string() + suffix;
-        const Result<Buffer> picture = run_gnuplot(terminal + *script);
+        const Result<Buffer> picture = run_gnuplot(terminal + script);
         if (!picture) return fail_in(file, picture.error());
-        if (const Status written = write_file(file, picture->bytes()); !written) return written;
+        SWATH_TRY_VOID(write_file(file, picture->bytes()));
     }
     return {};
 }
@@ -243,13 +239,15 @@ Status draw_both(const Result<std::string>& script, const std::vector<std::strin
 Status draw(const Plot& plot, const std::filesystem::path& stem) {
     std::vector<std::string> legend;
     for (const Series& series : plot.series) legend.push_back(printable(series.name));
-    return draw_both(script_of(plot), legend, stem);
+    SWATH_TRY(const std::string script, script_of(plot));
+    return draw_both(script, legend, stem);
 }
 
 Status draw(const Bars& bars, const std::filesystem::path& stem) {
     std::vector<std::string> legend;
     for (const std::string& segment : bars.segments) legend.push_back(printable(segment));
-    return draw_both(script_of(bars), legend, stem);
+    SWATH_TRY(const std::string script, script_of(bars));
+    return draw_both(script, legend, stem);
 }
 
 }  // namespace swath::sim

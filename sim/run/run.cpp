@@ -30,9 +30,8 @@ Status check(const RunOptions& options) {
 }
 
 Status run(const RunOptions& options) {
-    const auto scenario = Scenario::load(options.scenario);
-    if (!scenario) return tl::unexpected(scenario.error());
-    const std::vector<Experiment>& experiments = scenario->experiments();
+    SWATH_TRY(const auto scenario, Scenario::load(options.scenario));
+    const std::vector<Experiment>& experiments = scenario.experiments();
 
     const std::vector<Outcome> outcomes =
         run_experiments(experiments, options.scenario.threads, [](std::size_t, const Outcome&) {});
@@ -41,11 +40,11 @@ Status run(const RunOptions& options) {
         std::vector<Row> rows;
         for (std::size_t i = 0; i < experiments.size(); ++i)
             std::ranges::move(all_rows(experiments[i], outcomes[i]), std::back_inserter(rows));
-        if (const auto status = write_file(options.csv, to_csv(rows)); !status) return status;
+        SWATH_TRY_VOID(write_file(options.csv, to_csv(rows)));
         std::cout << "table: " << options.csv << '\n';
     }
     if (!options.timeline.empty()) {
-        if (const auto status = save_timeline(experiments.front(), options.timeline); !status) return status;
+        SWATH_TRY_VOID(save_timeline(experiments.front(), options.timeline));
         std::cout << "timeline: " << options.timeline
                   << (options.timeline.ends_with(".json") ? " (open it in ui.perfetto.dev)\n" : "\n");
     }

@@ -112,13 +112,12 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
 Result<ScenarioOptions> ScenarioFlags::read() const {
     ScenarioOptions options;
     for (const std::string& text : models_) {
-        auto model = parse_model_name(text);
-        if (!model) return tl::unexpected(model.error());
-        const auto taken = std::ranges::find(options.models, model->name, &ModelName::name);
+        SWATH_TRY(auto model, parse_model_name(text));
+        const auto taken = std::ranges::find(options.models, model.name, &ModelName::name);
         if (taken != options.models.end())
-            return fail("two models are called '{}': name them, as in a={} b={}", model->name, taken->file,
-                        model->file);
-        options.models.push_back(std::move(*model));
+            return fail("two models are called '{}': name them, as in a={} b={}", model.name, taken->file,
+                        model.file);
+        options.models.push_back(std::move(model));
     }
     for (const std::string& text : algorithms_) {
         const auto algorithm = parse_algorithm(text);
@@ -126,15 +125,13 @@ Result<ScenarioOptions> ScenarioFlags::read() const {
         add_once(options.algorithms, *algorithm);
     }
     for (const std::string& text : servers_) {
-        const auto servers = parse_servers(text);
-        if (!servers) return tl::unexpected(servers.error());
-        add_once(options.servers, *servers);
+        SWATH_TRY(const auto servers, parse_servers(text));
+        add_once(options.servers, servers);
     }
     for (const std::string& name : hardware_) add_once(options.hardware, name);
     for (const std::string& text : sizes_) {
-        const auto size = parse_size("--size", text);
-        if (!size) return tl::unexpected(size.error());
-        add_once(options.sizes, *size);
+        SWATH_TRY(const auto size, parse_size("--size", text));
+        add_once(options.sizes, size);
     }
     const auto by = parse_objects_by(objects_by_);
     if (!by) return fail_in("--objects-by", by.error());

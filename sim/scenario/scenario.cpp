@@ -71,11 +71,8 @@ Result<Scenario> Scenario::load(const ScenarioOptions& options) {
         scenario.add_settings(exact_text(*hardware));
         scenario.hardware_.push_back(std::move(*hardware));
     }
-    for (const ModelName& name : options.models)
-        if (const auto status = scenario.add_model(name, options); !status)
-            return tl::unexpected(status.error());
-    if (const auto status = check_labels(scenario.experiments_); !status)
-        return tl::unexpected(status.error());
+    for (const ModelName& name : options.models) SWATH_TRY_VOID(scenario.add_model(name, options));
+    SWATH_TRY_VOID(check_labels(scenario.experiments_));
     for (const Experiment& e : scenario.experiments_)
         scenario.add_settings(fmt::format("{}, {}, {} servers, {}x{}, {}", e.model_name, e.algorithm_name,
                                           e.servers, e.width, e.height, e.hardware->name));
@@ -91,15 +88,14 @@ void Scenario::add_settings(std::string_view lines) {
 }
 
 Status Scenario::add_model(const ModelName& name, const ScenarioOptions& options) {
-    const auto mesh = load_model(name.file);
-    if (!mesh) return tl::unexpected(mesh.error());
-    const Buffer blob = write_blob(*mesh);
-    add_settings(fmt::format("model {}: {} polygons, SHA-256 {}", name.name, mesh->triangle_count(),
+    SWATH_TRY(const auto mesh, load_model(name.file));
+    const Buffer blob = write_blob(mesh);
+    add_settings(fmt::format("model {}: {} polygons, SHA-256 {}", name.name, mesh.triangle_count(),
                              to_hex(digest(blob.bytes()))));
     std::vector<std::pair<const StudyModel*, std::string>> cuts;
     for (const Granularity& granularity : options.granularities) {
         const StudyModel& model =
-            models_.emplace_back(StudyModel{name.name, build_objects(*mesh, granularity)});
+            models_.emplace_back(StudyModel{name.name, build_objects(mesh, granularity)});
         const auto same_cut = [&](const auto& cut) { return cut.first->scene.cut == model.scene.cut; };
         // Two wished numbers of objects can come to the same depth.
         if (std::ranges::any_of(cuts, same_cut)) {
@@ -113,9 +109,9 @@ Status Scenario::add_model(const ModelName& name, const ScenarioOptions& options
         cuts.emplace_back(&model, which);
     }
     for (const PictureSize& size : options.sizes) {
-        auto paths = make_paths(options.path, models_.back().scene.swept_bounds(), size.width, size.height);
-        if (!paths) return tl::unexpected(paths.error());
-        const Paths& cameras = paths_.emplace_back(std::move(*paths));
+        SWATH_TRY(auto paths,
+                  make_paths(options.path, models_.back().scene.swept_bounds(), size.width, size.height));
+        const Paths& cameras = paths_.emplace_back(std::move(paths));
         add_settings(
             fmt::format("{}: cameras at {}, SHA-256 {}", name.name, size_text(size), digest_of(cameras)));
         for (const Hardware& hardware : hardware_) {

@@ -94,12 +94,10 @@ Result<StudyContext> StudyContext::open(const StudyOptions& options) {
     const auto is_paper_model = [](const ModelName& model) { return paper_model(model.name) != nullptr; };
     if (options.models.empty() || std::ranges::any_of(options.models, is_paper_model))
         for (const PaperModel& model : kPaperModels)
-            if (auto status = context.add_paper_subject(std::string(model.name), std::string(model.stand_in));
-                !status)
-                return tl::unexpected(status.error());
+            SWATH_TRY_VOID(context.add_paper_subject(std::string(model.name), std::string(model.stand_in)));
     for (const ModelName& name : options.models) {
         if (is_paper_model(name)) continue;
-        if (auto status = context.add_subject(name, false); !status) return tl::unexpected(status.error());
+        SWATH_TRY_VOID(context.add_subject(name, false));
     }
     for (const auto& [name, zoom] : options.zooms)
         if (!context.has_subject(name)) return fail("--zoom: no model is called '{}'", name);
@@ -146,10 +144,9 @@ Status StudyContext::add_subject(const ModelName& name, bool stand_in) {
     }
     if (const auto zoom = options_.zooms.find(name.name); zoom != options_.zooms.end())
         subject.zoom = zoom->second;
-    auto paths = make_paths({"random", options_.frames, subject.zoom, options_.seed, options_.seeds},
-                            subject.model.scene.swept_bounds(), kPaperWidth, kPaperHeight);
-    if (!paths) return tl::unexpected(paths.error());
-    subject.paths = std::move(*paths);
+    SWATH_TRY(subject.paths,
+              make_paths({"random", options_.frames, subject.zoom, options_.seed, options_.seeds},
+                         subject.model.scene.swept_bounds(), kPaperWidth, kPaperHeight));
     subjects_.push_back(std::move(subject));
     return {};
 }

@@ -69,7 +69,7 @@ class StudyContext {
     // Draws STEM.svg and STEM.png, and puts the SVG on the page.
     template <class Drawing>
     Status figure(const Drawing& drawing, const std::string& stem, std::string_view caption) {
-        if (auto status = draw(drawing, options_.out / stem); !status) return status;
+        SWATH_TRY_VOID(draw(drawing, options_.out / stem));
         page_.figure({{stem + ".svg", drawing.title}}, caption);
         return {};
     }

@@ -137,8 +137,8 @@ Status feasibility(StudyContext& context) {
                 subject.stand_in ? " A stand-in: nothing that the paper measured." : "");
         page.table(table, caption);
     }
-    if (auto status = context.write("table1.csv", to_csv(table1)); !status) return status;
-    if (auto status = context.write("modes.csv", to_csv(results.rows())); !status) return status;
+    SWATH_TRY_VOID(context.write("table1.csv", to_csv(table1)));
+    SWATH_TRY_VOID(context.write("modes.csv", to_csv(results.rows())));
     page.link("table1.csv", "these numbers, without rounding to the paper's digits");
 
     const StudySubject& subject = context.figures_subject();
@@ -146,8 +146,7 @@ Status feasibility(StudyContext& context) {
         "Figure 6 for {} (the paper shows the Buddha): the slowest of the three stages decides. The client's "
         "time is what the hardware profile says; the paper prints it only as a curve.",
         subject.model.name);
-    if (auto status = context.figure(figure_6(results, subject.model.name), "figure_6", caption); !status)
-        return status;
+    SWATH_TRY_VOID(context.figure(figure_6(results, subject.model.name), "figure_6", caption));
     show_modes(results, subject, page);
     page.link("modes.csv", "all columns of both modes, for all models and also for KD-split");
     page.note(

@@ -72,9 +72,8 @@ Result<StudyOptions> StudyFlags::read() const {
         options.models.push_back(std::move(*model));
     }
     for (const std::string& text : zooms_) {
-        const auto zoom = parse_zoom(text);
-        if (!zoom) return tl::unexpected(zoom.error());
-        if (!options.zooms.insert(*zoom).second) return fail("--zoom: '{}' has two of them", zoom->first);
+        SWATH_TRY(const auto zoom, parse_zoom(text));
+        if (!options.zooms.insert(zoom).second) return fail("--zoom: '{}' has two of them", zoom.first);
     }
     options.threads = threads_or_all(threads_);
     return options;

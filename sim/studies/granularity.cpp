@@ -15,10 +15,9 @@ constexpr std::array kDepths{3, 4, 5};
 Result<std::list<StudyModel>> cuts(const StudySubject& subject) {
     std::list<StudyModel> models;
     for (const int depth : kDepths) {
-        auto model = load_study_model(subject.model.name, subject.file, {depth, 0});
-        if (!model) return tl::unexpected(model.error());
-        model->name = fmt::format("{} ({} objects)", subject.model.name, model->scene.objects.size());
-        models.push_back(std::move(*model));
+        SWATH_TRY(auto model, load_study_model(subject.model.name, subject.file, {depth, 0}));
+        model.name = fmt::format("{} ({} objects)", subject.model.name, model.scene.objects.size());
+        models.push_back(std::move(model));
     }
     return models;
 }
@@ -27,11 +26,11 @@ Result<std::list<StudyModel>> cuts(const StudySubject& subject) {
 Result<std::list<StudyModel>> sah_cuts(const StudySubject& subject, const std::list<StudyModel>& uniform) {
     std::list<StudyModel> models;
     for (const StudyModel& other : uniform) {
-        auto model = load_study_model(subject.model.name, subject.file,
-                                      {.objects = other.scene.objects.size(), .by = ObjectsBy::kSah});
-        if (!model) return tl::unexpected(model.error());
-        model->name = fmt::format("{} ({} asked for by SAH)", subject.model.name, model->scene.cut.objects);
-        models.push_back(std::move(*model));
+        SWATH_TRY(auto model,
+                  load_study_model(subject.model.name, subject.file,
+                                   {.objects = other.scene.objects.size(), .by = ObjectsBy::kSah}));
+        model.name = fmt::format("{} ({} asked for by SAH)", subject.model.name, model.scene.cut.objects);
+        models.push_back(std::move(model));
     }
     return models;
 }
@@ -98,17 +97,14 @@ Plot figure_sah(const Results& results, const std::string& name, const std::list
 Status figure_14(StudyContext& context, const StudySubject& subject, const std::list<StudyModel>& models) {
     std::vector<Page::Picture> top;
     std::vector<Page::Picture> bottom;
-    const auto frame = first_frame(subject);
-    if (!frame) return tl::unexpected(frame.error());
+    SWATH_TRY(const auto frame, first_frame(subject));
     for (const StudyModel& model : models) {
         const std::size_t objects = model.scene.objects.size();
         const FramePlan plan = first_plan(subject, model, Algorithm::kHybrid, kPictureServers);
         const std::string boxes = fmt::format("figure_14_boxes_{}.png", objects);
         const std::string tiles = fmt::format("figure_14_tiles_{}.png", objects);
-        if (auto status = write_picture(context, boxes_figure(*frame, plan.view, model.scene.objects), boxes);
-            !status)
-            return status;
-        if (auto status = write_picture(context, overlap_figure(*frame, plan), tiles); !status) return status;
+        SWATH_TRY_VOID(write_picture(context, boxes_figure(frame, plan.view, model.scene.objects), boxes));
+        SWATH_TRY_VOID(write_picture(context, overlap_figure(frame, plan), tiles));
         top.push_back({boxes, fmt::format("{} objects", objects)});
         bottom.push_back({tiles, fmt::format("{} objects", objects)});
     }
@@ -125,42 +121,34 @@ Status figure_14(StudyContext& context, const StudySubject& subject, const std::
 Status granularity(StudyContext& context) {
     const StudySubject& subject = context.figures_subject();
     const std::string& name = subject.model.name;
-    const auto models = cuts(subject);
-    if (!models) return tl::unexpected(models.error());
-    const auto sah_models = sah_cuts(subject, *models);
-    if (!sah_models) return tl::unexpected(sah_models.error());
+    SWATH_TRY(const auto models, cuts(subject));
+    SWATH_TRY(const auto sah_models, sah_cuts(subject, models));
     std::vector<Experiment> experiments;
-    for (const auto* cut : {&*models, &*sah_models})
+    for (const auto* cut : {&models, &sah_models})
         for (const StudyModel& model : *cut)
             std::ranges::move(context.experiments(subject, model, kAlgorithms, kPaperWidth, kPaperHeight),
                               std::back_inserter(experiments));
     const Results results = context.run(std::move(experiments), "granularity");
-    if (auto status = context.write("granularity.csv", to_csv(results.rows())); !status) return status;
+    SWATH_TRY_VOID(context.write("granularity.csv", to_csv(results.rows())));
 
     Page& page = context.page();
     page.section("Object granularity: figures 12, 13 and 14");
     page.text(
         "Finer objects make overlaps smaller and the client's work larger. The paper cuts the Buddha into "
         "293, 1,476 and 6,521 objects: octrees of depth 3, 4 and 5.");
-    if (auto status = context.figure(
-            figure_12(context, name, *models), "figure_12",
-            fmt::format("Figure 12 for {}: the client's time grows linearly with the objects.", name));
-        !status)
-        return status;
-    if (auto status = context.figure(
-            figure_13(results, name, *models), "figure_13",
-            fmt::format("Figure 13 for {}: what servers do beyond their share of ideal rendering.", name));
-        !status)
-        return status;
-    if (auto status = context.figure(
-            figure_sah(results, name, *models, *sah_models), "granularity_sah",
-            fmt::format("Not in the paper: the hybrid with objects that are leaves of a SAH octree, beside "
-                        "cells of the uniform one, {}.",
-                        name));
-        !status)
-        return status;
+    SWATH_TRY_VOID(context.figure(
+        figure_12(context, name, models), "figure_12",
+        fmt::format("Figure 12 for {}: the client's time grows linearly with the objects.", name)));
+    SWATH_TRY_VOID(context.figure(
+        figure_13(results, name, models), "figure_13",
+        fmt::format("Figure 13 for {}: what servers do beyond their share of ideal rendering.", name)));
+    SWATH_TRY_VOID(context.figure(
+        figure_sah(results, name, models, sah_models), "granularity_sah",
+        fmt::format("Not in the paper: the hybrid with objects that are leaves of a SAH octree, beside "
+                    "cells of the uniform one, {}.",
+                    name)));
     PageTable table{{"objects", "cut", "servers", "hybrid", "sort-first", "sort-last"}, {}};
-    for (const auto* cut : {&*models, &*sah_models}) {
+    for (const auto* cut : {&models, &sah_models}) {
         for (const StudyModel& model : *cut) {
             for (const std::size_t servers : kPaperServers) {
                 const auto cell = [&](Algorithm algorithm) {
@@ -182,9 +170,9 @@ Status granularity(StudyContext& context) {
         "The paper says that sort-last is unaffected by granularity. Here its groups are cut by the hybrid's "
         "sweep and depend on the objects too: with 64 servers its overhead is {:.0f} per cent with the "
         "coarsest cut and {:.0f} with the finest, the hybrid's {:.0f} and {:.0f}.",
-        of_64(Algorithm::kSortLast, models->front()), of_64(Algorithm::kSortLast, models->back()),
-        of_64(Algorithm::kHybrid, models->front()), of_64(Algorithm::kHybrid, models->back())));
-    return figure_14(context, subject, *models);
+        of_64(Algorithm::kSortLast, models.front()), of_64(Algorithm::kSortLast, models.back()),
+        of_64(Algorithm::kHybrid, models.front()), of_64(Algorithm::kHybrid, models.back())));
+    return figure_14(context, subject, models);
 }
 
 }  // namespace swath::sim

@@ -16,7 +16,7 @@ Status resolution(StudyContext& context) {
     const Results high = context.run(
         context.experiments(subject, subject.model, kAlgorithms, 2 * kPaperWidth, 2 * kPaperHeight),
         "resolution");
-    if (auto status = context.write("resolution.csv", to_csv(high.rows())); !status) return status;
+    SWATH_TRY_VOID(context.write("resolution.csv", to_csv(high.rows())));
 
     Page& page = context.page();
     page.section("Screen resolution: figure 11");
@@ -24,11 +24,9 @@ Status resolution(StudyContext& context) {
         "What do four times as many pixels cost? Sort-first does not care as long as polygons, not pixels, "
         "take the time; sort-last moves areas and the hybrid borders. The paper concludes that the hybrid's "
         "exchange grows only with the root of the number of pixels.");
-    if (auto status =
-            context.figure(server_bars(high, name, fmt::format("Servers at 2560x1920, {}", name)),
-                           "figure_11", fmt::format("Figure 11 for {}: figure 8 at 2560x1920.", name));
-        !status)
-        return status;
+    SWATH_TRY_VOID(context.figure(server_bars(high, name, fmt::format("Servers at 2560x1920, {}", name)),
+                                  "figure_11",
+                                  fmt::format("Figure 11 for {}: figure 8 at 2560x1920.", name)));
 
     PageTable table{{"servers", "hybrid (ms)", "times", "sort-last (ms)", "times", "sort-last / hybrid",
                      "speed-up, hybrid", "speed-up, sort-last", "speed-up, sort-first"},

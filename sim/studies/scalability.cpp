@@ -80,20 +80,16 @@ Status scalability(StudyContext& context) {
     page.text(
         "Does it scale with the number of servers? The pipeline goes at the pace of its slowest stage, so "
         "client, servers and display have to.");
-    if (auto status = context.figure(
-            figure_7(context, subject), "figure_7",
-            fmt::format("Figure 7 for {}, from the hardware profile's client times. The paper's numbers are "
-                        "not printed: its text says that the hybrid grows linearly with the servers, and "
-                        "that a Buddha of 1,476 objects would reach 33 ms at about 150 of them. Sort-first "
-                        "is taken to cost the same.",
-                        name));
-        !status)
-        return status;
-    if (auto status = context.figure(
-            server_bars(results, name, fmt::format("Servers at 1280x960, {}", name)), "figure_8",
-            fmt::format("Figure 8 for {}: where a server's time goes, for 8 to 64 servers.", name));
-        !status)
-        return status;
+    SWATH_TRY_VOID(context.figure(
+        figure_7(context, subject), "figure_7",
+        fmt::format("Figure 7 for {}, from the hardware profile's client times. The paper's numbers are "
+                    "not printed: its text says that the hybrid grows linearly with the servers, and "
+                    "that a Buddha of 1,476 objects would reach 33 ms at about 150 of them. Sort-first "
+                    "is taken to cost the same.",
+                    name)));
+    SWATH_TRY_VOID(context.figure(
+        server_bars(results, name, fmt::format("Servers at 1280x960, {}", name)), "figure_8",
+        fmt::format("Figure 8 for {}: where a server's time goes, for 8 to 64 servers.", name)));
     for (const StudySubject& each : context.subjects()) {
         std::string caption = fmt::format(
             "Figure 9 for {}. Lines are paper mode, dashes full mode, which includes client, network and "
@@ -102,10 +98,8 @@ Status scalability(StudyContext& context) {
         if (!each.paper_name.empty())
             caption += each.stand_in ? " Points are the paper's, of a mesh that this one stands in for."
                                      : " Points are the paper's.";
-        if (auto status =
-                context.figure(figure_9(results, each), "figure_9_" + file_name_of(each.model.name), caption);
-            !status)
-            return status;
+        SWATH_TRY_VOID(
+            context.figure(figure_9(results, each), "figure_9_" + file_name_of(each.model.name), caption));
     }
     return {};
 }

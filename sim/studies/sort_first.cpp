@@ -46,15 +46,12 @@ Status sort_first(StudyContext& context) {
                         subject.model.name));
 
     const StudySubject& subject = context.figures_subject();
-    auto frame = first_frame(subject);
-    if (!frame) return tl::unexpected(frame.error());
+    SWATH_TRY(auto frame, first_frame(subject));
     const FramePlan plan = first_plan(subject, subject.model, Algorithm::kMahd, kPictureServers);
     const std::vector<Object>& objects = subject.model.scene.objects;
     const std::size_t several = replicated_objects(plan, objects.size()).size();
-    if (auto status =
-            write_picture(context, replication_figure(std::move(*frame), plan, objects), "figure_10a.png");
-        !status)
-        return status;
+    SWATH_TRY_VOID(
+        write_picture(context, replication_figure(std::move(frame), plan, objects), "figure_10a.png"));
     page.figure(
         {{"figure_10a.png", "objects that span tiles"}},
         fmt::format("Figure 10a for {}, MAHD, {} servers: the boxes of the {} of {} objects that span "

@@ -53,13 +53,12 @@ Status sort_last(StudyContext& context) {
                         subject.model.name));
 
     const StudySubject& subject = context.figures_subject();
-    const auto frame = first_frame(subject);
-    if (!frame) return tl::unexpected(frame.error());
+    SWATH_TRY(const auto frame, first_frame(subject));
     std::vector<Page::Picture> pictures;
     for (const auto& [algorithm, file] : {std::pair{Algorithm::kSortLast, "figure_10b.png"},
                                           std::pair{Algorithm::kHybrid, "figure_10c.png"}}) {
         const FramePlan plan = first_plan(subject, subject.model, algorithm, kPictureServers);
-        if (auto status = write_picture(context, transfer_figure(*frame, plan), file); !status) return status;
+        SWATH_TRY_VOID(write_picture(context, transfer_figure(frame, plan), file));
         pictures.push_back({file, fmt::format("{}: {} pixels are sent from server to server",
                                               name_of(algorithm), transferred(plan))});
     }

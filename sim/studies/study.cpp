@@ -64,14 +64,13 @@ std::vector<std::string> study_names() {
 }
 
 Status run_studies(const StudyOptions& options) {
-    auto context = StudyContext::open(options);
-    if (!context) return tl::unexpected(context.error());
-    introduce(*context);
+    SWATH_TRY(auto context, StudyContext::open(options));
+    introduce(context);
     for (const Study& study : kStudies) {
         if (std::ranges::find(options.names, study.name) == options.names.end()) continue;
-        if (auto status = study.run(*context); !status) return fail_in(study.name, status.error());
+        if (auto status = study.run(context); !status) return fail_in(study.name, status.error());
     }
-    if (auto status = context->write("index.html", context->page().html()); !status) return status;
+    SWATH_TRY_VOID(context.write("index.html", context.page().html()));
     std::cout << "page: " << (options.out / "index.html").string() << '\n';
     return {};
 }

@@ -54,13 +54,12 @@ class Reader {
             if (!one.starts_with('#')) continue;
             if (!one.starts_with(kEnd)) return fail("{}:{}: neither a row nor '{}'", source_, line, kEnd);
             const std::string_view rows = text.substr(begin, at - begin);
-            if (const auto status = take(rows, one, line); !status) return tl::unexpected(status.error());
+            SWATH_TRY_VOID(take(rows, one, line));
             begin = end + 1;
             entry_line_ = line + 1;
         }
         // Whole lines without an end are a cut-off entry, and must still be rows of this sweep.
-        if (const auto place = experiment_of(text.substr(begin, at - begin)); !place)
-            return tl::unexpected(place.error());
+        SWATH_TRY_VOID(experiment_of(text.substr(begin, at - begin)));
         contents_.intact_bytes = begin;
         return std::move(contents_);
     }
@@ -71,21 +70,19 @@ class Reader {
 
     Status take(std::string_view rows, std::string_view end, std::size_t line) {
         if (rows.empty()) return fail("{}:{}: an end without rows", source_, line);
-        const auto place = experiment_of(rows);
-        if (!place) return tl::unexpected(place.error());
+        SWATH_TRY(const auto place, experiment_of(rows));
         if (end != end_of(rows))
             return fail("{}:{}: the rows before are not as they were written", source_, line);
-        contents_.rows[*place] = rows;
+        contents_.rows[place] = rows;
         return {};
     }
 
     // The index of the experiment that all these rows belong to, which must not be complete.
     Result<std::size_t> experiment_of(std::string_view lines) const {
-        const auto rows = parse_table(to_csv({}).append(lines), source_, entry_line_ - 1);
-        if (!rows) return tl::unexpected(rows.error());
+        SWATH_TRY(const auto rows, parse_table(to_csv({}).append(lines), source_, entry_line_ - 1));
         std::size_t place = 0;
-        for (std::size_t i = 0; i < rows->size(); ++i) {
-            const Row& row = (*rows)[i];
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const Row& row = rows[i];
             const auto found = places_.find(key(row));
             const auto wrong = [&](std::string_view what) {
                 return fail("{}:{}: {}: {}, {}, {} servers", source_, entry_line_ + i, what, row.algorithm,

@@ -32,7 +32,7 @@ Result<std::unique_ptr<JournalFile>> JournalFile::open(const std::filesystem::pa
     const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0644);
     if (fd < 0) return fail("{}: {}", path.string(), std::strerror(errno));
     std::unique_ptr<JournalFile> file(new JournalFile(path, fd));
-    if (const auto status = file->begin(head, labels); !status) return tl::unexpected(status.error());
+    SWATH_TRY_VOID(file->begin(head, labels));
     return file;
 }
 
@@ -42,16 +42,14 @@ Status JournalFile::begin(const std::string& head, std::span<const Row> labels) 
     if (::flock(fd_, LOCK_EX | LOCK_NB) != 0)
         return errno == EWOULDBLOCK ? fail("{}: another sweep is at work in this folder", path_.string())
                                     : fail("{}: {}", path_.string(), std::strerror(errno));
-    const auto bytes = read_file(path_, kMaxBytes);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    auto contents = read_journal(text, head, labels, path_.string());
-    if (!contents) return tl::unexpected(contents.error());
-    rows_ = std::move(contents->rows);
-    was_cut_off_ = contents->intact_bytes < text.size();
-    if (was_cut_off_ && ::ftruncate(fd_, static_cast<off_t>(contents->intact_bytes)) != 0)
+    SWATH_TRY(const auto bytes, read_file(path_, kMaxBytes));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    SWATH_TRY(auto contents, read_journal(text, head, labels, path_.string()));
+    rows_ = std::move(contents.rows);
+    was_cut_off_ = contents.intact_bytes < text.size();
+    if (was_cut_off_ && ::ftruncate(fd_, static_cast<off_t>(contents.intact_bytes)) != 0)
         return fail("{}: {}", path_.string(), std::strerror(errno));
-    if (contents->intact_bytes > 0) return {};
+    if (contents.intact_bytes > 0) return {};
     sync_folder(path_.parent_path());
     return write(head);
 }

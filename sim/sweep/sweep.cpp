@@ -56,15 +56,13 @@ Status complete(const std::vector<Experiment>& experiments, std::size_t threads,
 Result<SweepResult> run_sweep(const Scenario& scenario, const SweepOptions& options, const Clock& clock) {
     const std::vector<Experiment>& experiments = scenario.experiments();
     SweepResult result{options.out / "sweep.csv", experiments.size(), 0};
-    if (const auto status = prepare_folder(options.out, result.table); !status)
-        return tl::unexpected(status.error());
+    SWATH_TRY_VOID(prepare_folder(options.out, result.table));
 
     std::vector<Row> labels;
     for (const Experiment& experiment : experiments) labels.push_back(experiment.label());
     const fs::path path = options.out / "sweep.journal";
-    const auto opened = JournalFile::open(path, journal_head(scenario.settings()), labels);
-    if (!opened) return tl::unexpected(opened.error());
-    JournalFile& journal = **opened;
+    SWATH_TRY(const auto opened, JournalFile::open(path, journal_head(scenario.settings()), labels));
+    JournalFile& journal = *opened;
     if (journal.was_cut_off())
         std::cerr << "notice: " << path.string() << ": the last entry was cut off and is run again\n";
 
@@ -72,22 +70,19 @@ Result<SweepResult> run_sweep(const Scenario& scenario, const SweepOptions& opti
     result.from_before = experiments.size() - missing;
     if (missing > 0) {
         Progress progress(missing, "experiments", options.quiet, clock);
-        if (const auto status = complete(experiments, options.scenario.threads, journal, progress); !status)
-            return tl::unexpected(status.error());
+        SWATH_TRY_VOID(complete(experiments, options.scenario.threads, journal, progress));
     }
     std::string table = to_csv({});
     for (const std::string& rows : journal.rows()) table += rows;
-    if (const auto status = write_file(result.table, table); !status) return tl::unexpected(status.error());
+    SWATH_TRY_VOID(write_file(result.table, table));
     return result;
 }
 
 Status sweep(const SweepOptions& options, const Clock& clock) {
-    const auto scenario = Scenario::load(options.scenario);
-    if (!scenario) return tl::unexpected(scenario.error());
-    const auto result = run_sweep(*scenario, options, clock);
-    if (!result) return tl::unexpected(result.error());
-    std::cout << fmt::format("table: {} ({} experiments, {} of them from before)\n", result->table.string(),
-                             result->experiments, result->from_before);
+    SWATH_TRY(const auto scenario, Scenario::load(options.scenario));
+    SWATH_TRY(const auto result, run_sweep(scenario, options, clock));
+    std::cout << fmt::format("table: {} ({} experiments, {} of them from before)\n", result.table.string(),
+                             result.experiments, result.from_before);
     return {};
 }
 

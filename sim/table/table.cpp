@@ -54,12 +54,11 @@ std::string to_csv(std::span<const Row> rows) {
 }
 
 Result<std::vector<Row>> parse_table(std::string_view text, std::string_view source, std::size_t first_line) {
-    auto records = parse_csv(text, kHeader, source, first_line);
-    if (!records) return tl::unexpected(records.error());
+    SWATH_TRY(auto records, parse_csv(text, kHeader, source, first_line));
     std::vector<Row> rows;
-    for (std::size_t i = 1; i < records->size(); ++i) {
-        const std::size_t line = (*records)[i].line;
-        auto row = parse_row(std::move((*records)[i]));
+    for (std::size_t i = 1; i < records.size(); ++i) {
+        const std::size_t line = records[i].line;
+        auto row = parse_row(std::move(records[i]));
         if (!row) return fail_in(fmt::format("{}:{}", source, line), row.error());
         rows.push_back(std::move(*row));
     }
@@ -67,9 +66,8 @@ Result<std::vector<Row>> parse_table(std::string_view text, std::string_view sou
 }
 
 Result<std::vector<Row>> read_table(const std::filesystem::path& file) {
-    const Result<Buffer> bytes = read_file(file, kMaxFileBytes);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return parse_table({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
+    SWATH_TRY(const Buffer bytes, read_file(file, kMaxFileBytes));
+    return parse_table({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
 }  // namespace swath::sim
