@@ -51,9 +51,9 @@ Result<std::unique_ptr<LocalCluster>> LocalCluster::start(const Options& options
         std::vector<std::string> arguments = options.arguments;
         const auto& own = i > 0 ? options.server_arguments : options.display_arguments;
         arguments.insert(arguments.end(), own.begin(), own.end());
-        auto child = spawn(options.programs / (i == 0 ? "swath-display" : "swath-server"), arguments);
-        if (!child) return tl::unexpected(child.error());
-        cluster->children_.push_back(std::move(*child));
+        SWATH_TRY(auto child,
+                  spawn(options.programs / (i == 0 ? "swath-display" : "swath-server"), arguments));
+        cluster->children_.push_back(std::move(child));
     }
     for (std::size_t i = 0; i < cluster->children_.size(); ++i) {
         Child& child = *cluster->children_[i];
@@ -61,12 +61,11 @@ Result<std::unique_ptr<LocalCluster>> LocalCluster::start(const Options& options
         std::getline(child.output, line);
         static constexpr std::string_view kAnnouncement = "listening ";
         if (!line.starts_with(kAnnouncement)) return fail("{} did not start", child.name);
-        auto address = parse_address(std::string_view(line).substr(kAnnouncement.size()));
-        if (!address) return tl::unexpected(address.error());
+        SWATH_TRY(const auto address, parse_address(std::string_view(line).substr(kAnnouncement.size())));
         if (i == 0)
-            cluster->display_ = *address;
+            cluster->display_ = address;
         else
-            cluster->servers_.push_back(*address);
+            cluster->servers_.push_back(address);
     }
     return cluster;
 }

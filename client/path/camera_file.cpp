@@ -92,9 +92,8 @@ Result<std::vector<Camera>> parse_cameras(std::string_view text, std::string_vie
 }
 
 Result<std::vector<Camera>> read_cameras(const std::string& path) {
-    const Result<Buffer> file = read_file(path, kMaxCameraFileBytes);
-    if (!file) return tl::unexpected(file.error());
-    return parse_cameras({reinterpret_cast<const char*>(file->data()), file->size()}, path);
+    SWATH_TRY(const Buffer file, read_file(path, kMaxCameraFileBytes));
+    return parse_cameras({reinterpret_cast<const char*>(file.data()), file.size()}, path);
 }
 
 }  // namespace swath

@@ -13,8 +13,7 @@ namespace swath {
 Result<std::vector<FrameTimeline>> render_single(
     const SingleJob& job, const Clock& clock,
     const std::function<Status(FrameNumber, const Buffer&)>& on_picture) {
-    auto renderer = make_renderer(job.renderer, *job.scene);
-    if (!renderer) return tl::unexpected(renderer.error());
+    SWATH_TRY(auto renderer, make_renderer(job.renderer, *job.scene));
     std::vector<ObjectId> all(job.scene->objects.size());
     ThreadTeam team(job.renderer.threads, clock);
     LeafCull cull(job.cull, *job.scene, team);
@@ -35,12 +34,10 @@ Result<std::vector<FrameTimeline>> render_single(
         machine[Counter::kLeaves] = list.leaves;
         machine[Counter::kSplitLevel] = static_cast<std::uint64_t>(list.split_level.value_or(0));
         timer.end(Phase::kCull);
-        if (const auto status = (*renderer)->draw(list.runs, view, view.viewport()); !status)
-            return tl::unexpected(status.error());
+        SWATH_TRY_VOID(renderer->draw(list.runs, view, view.viewport()));
         timer.end(Phase::kRender);
         pixels.reshape(view.viewport());
-        if (const auto status = (*renderer)->read(view.viewport(), pixels); !status)
-            return tl::unexpected(status.error());
+        SWATH_TRY_VOID(renderer->read(view.viewport(), pixels));
         timer.end(Phase::kPixelRead);
         const Picture picture = to_picture(pixels, job.background);
         timer.end(Phase::kAssemble);
@@ -53,7 +50,7 @@ Result<std::vector<FrameTimeline>> render_single(
         timeline.frame = number;
         timeline.machines.push_back(std::move(machine));
         timelines.push_back(std::move(timeline));
-        if (const auto status = on_picture(number, encoded); !status) return tl::unexpected(status.error());
+        SWATH_TRY_VOID(on_picture(number, encoded));
     }
     return timelines;
 }

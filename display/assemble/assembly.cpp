@@ -3,7 +3,7 @@
 namespace swath {
 
 Result<Assembly::Actions> Assembly::on_task(FrameNumber frame, const std::vector<ServerId>& servers) {
-    if (const auto status = gather_.open(frame, servers); !status) return tl::unexpected(status.error());
+    SWATH_TRY_VOID(gather_.open(frame, servers));
     Actions actions;
     for (const ServerId server : gather_.ready(frame))
         actions.push_back({AssemblyAction::Kind::kMerge, frame, server});
@@ -12,10 +12,9 @@ Result<Assembly::Actions> Assembly::on_task(FrameNumber frame, const std::vector
 }
 
 Result<Assembly::Actions> Assembly::on_tile(FrameNumber frame, ServerId from) {
-    const auto now = gather_.arrive(frame, from);
-    if (!now) return tl::unexpected(now.error());
+    SWATH_TRY(const auto now, gather_.arrive(frame, from));
     Actions actions;
-    if (!*now) return actions;
+    if (!now) return actions;
     actions.push_back({AssemblyAction::Kind::kMerge, frame, from});
     finish_if_complete(frame, actions);
     return actions;

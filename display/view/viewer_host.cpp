@@ -140,9 +140,7 @@ Result<std::unique_ptr<ViewerHost>> ViewerHost::make(const WebServer::Options& o
     handlers.on_text = [raw = host.get()](ViewerId viewer, std::string_view text) {
         return raw->on_text(viewer, text);
     };
-    auto web = WebServer::make(host->io_, options, std::move(handlers));
-    if (!web) return tl::unexpected(web.error());
-    host->web_ = std::move(*web);
+    SWATH_TRY(host->web_, WebServer::make(host->io_, options, std::move(handlers)));
     for (auto& encoder : host->encoders_) encoder = std::make_unique<WorkerThread>();
     host->thread_ = std::thread([raw = host.get()] { raw->serve(); });
     return host;
@@ -209,14 +207,13 @@ Status ViewerHost::note(NoteTopic topic, FrameNumber frame, Buffer text) {
 }
 
 Status ViewerHost::on_text(ViewerId viewer, std::string_view text) {
-    const auto parsed = parse_text(text);
-    if (!parsed) return tl::unexpected(parsed.error());
+    SWATH_TRY(const auto parsed, parse_text(text));
     const std::lock_guard lock(mutex_);
-    if (const auto* shown = std::get_if<PictureKey>(&*parsed)) {
+    if (const auto* shown = std::get_if<PictureKey>(&parsed)) {
         PictureKey key = *shown;
         key.run = viewers_.run();
         run(viewers_.on_shown(viewer, key, clock_.now()));
-    } else if (std::holds_alternative<Lead>(*parsed)) {
+    } else if (std::holds_alternative<Lead>(parsed)) {
         run(viewers_.on_lead(viewer, clock_.now()));
     } else if (viewers_.steers(viewer) && messenger_) {
         messenger_->wish(viewer, text);

@@ -380,10 +380,8 @@ Status WebServer::Impl::listen(const Address& wanted, const std::optional<Addres
         resolver.resolve(wanted.host, std::to_string(wanted.port), tcp::resolver::passive, error);
     if (error) return fail("cannot listen on {}: {}", to_string(wanted), error.message());
     const asio::ip::address where = found.begin()->endpoint().address();
-    auto listener = Listener::make(io_, {where.to_string(), wanted.port},
-                                   [this](tcp::socket socket) { on_socket(std::move(socket)); });
-    if (!listener) return tl::unexpected(listener.error());
-    listener_ = std::move(*listener);
+    SWATH_TRY(listener_, Listener::make(io_, {where.to_string(), wanted.port},
+                                        [this](tcp::socket socket) { on_socket(std::move(socket)); }));
     address_ = {wanted.host, listener_->address().port};
     Address shown = published.value_or(address_);
     const asio::ip::address reached = published ? asio::ip::make_address(published->host, error) : where;
@@ -411,8 +409,7 @@ void WebServer::Impl::on_socket(tcp::socket socket) {
 Result<std::unique_ptr<WebServer>> WebServer::make(asio::io_context& io, const Options& options,
                                                    Handlers handlers) {
     auto impl = std::make_unique<Impl>(io, options.limits, std::move(handlers));
-    if (const auto status = impl->listen(options.listen, options.published); !status)
-        return tl::unexpected(status.error());
+    SWATH_TRY_VOID(impl->listen(options.listen, options.published));
     return std::unique_ptr<WebServer>(new WebServer(std::move(impl)));
 }
 

@@ -3,8 +3,7 @@
 namespace swath {
 
 Result<FrameSwap::Actions> FrameSwap::on_task(const SwapTask& task) {
-    if (const auto status = gather_.open(task.frame, task.incoming); !status)
-        return tl::unexpected(status.error());
+    SWATH_TRY_VOID(gather_.open(task.frame, task.incoming));
     tasks_[task.frame] = {task.outgoing, task.has_tile};
     return Actions{{SwapAction::Kind::kDraw, task.frame, {}}};
 }
@@ -20,10 +19,9 @@ FrameSwap::Actions FrameSwap::on_drawn(FrameNumber frame) {
 }
 
 Result<FrameSwap::Actions> FrameSwap::on_swath(FrameNumber frame, ServerId from) {
-    const auto now = gather_.arrive(frame, from);
-    if (!now) return tl::unexpected(now.error());
+    SWATH_TRY(const auto now, gather_.arrive(frame, from));
     Actions actions;
-    if (!*now) return actions;
+    if (!now) return actions;
     actions.push_back({SwapAction::Kind::kComposite, frame, from});
     finish_if_complete(frame, actions);
     return actions;
