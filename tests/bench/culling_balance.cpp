@@ -74,7 +74,7 @@ Status draw_idle_time(CullingBench& bench) {
             times.series.push_back(std::move(time));
             counts.series.push_back(std::move(count));
         }
-    if (const auto status = draw_with_csv(times, bench.effort.out / "idle_time"); !status) return status;
+    SWATH_TRY_VOID(draw_with_csv(times, bench.effort.out / "idle_time"));
     return draw_with_csv(counts, bench.effort.out / "idle_nodes");
 }
 
@@ -101,8 +101,7 @@ Status draw_walk(CullingBench& bench) {
         levels.series.push_back(std::move(level));
         balance.series.push_back(std::move(shares));
     }
-    if (const auto status = draw_with_csv(levels, bench.effort.out / "walk_split_level"); !status)
-        return status;
+    SWATH_TRY_VOID(draw_with_csv(levels, bench.effort.out / "walk_split_level"));
     return draw_with_csv(balance, bench.effort.out / "walk_balance");
 }
 

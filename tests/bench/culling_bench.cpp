@@ -11,11 +11,11 @@ Status bench_culling(Figures& figures, const Effort& effort) {
         if (error) return fail("{}: {}", effort.out.string(), error.message());
     }
     for (Status (*const part)(CullingBench&) : {bench_trees, bench_objects, bench_sorts, bench_loaded})
-        if (const auto status = part(bench); !status) return status;
+        SWATH_TRY_VOID(part(bench));
     if (effort.out.empty()) return {};
     for (Status (*const draw)(CullingBench&) :
          {draw_time_over_nodes, draw_idle_time, draw_walk, draw_time_over_resources})
-        if (const auto status = draw(bench); !status) return status;
+        SWATH_TRY_VOID(draw(bench));
     return {};
 }
 

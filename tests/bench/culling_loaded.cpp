@@ -56,7 +56,7 @@ Status bench_loaded(CullingBench& bench) {
     Race race(title, "k30");
     race.add("one thread", [&] { return one->cull(frustum); });
     race.add("two threads", [&] { return two->cull(frustum); });
-    if (const auto status = race.check(); !status) return status;
+    SWATH_TRY_VOID(race.check());
     const Load load;
     race.run(bench.repetitions(15), bench.effort.smoke ? 10 : 1000, Race::Frames::kMean);
     bench.figures.note(table(title, {&race, 1}));

@@ -53,7 +53,7 @@ Result<Race> race_objects(const BoxSet& set, const ObjectScene& scene, Structure
     race.add(kFlat, [&] { return in.flat.cull(scene.frustum); });
     race.add(kOurs, [&] { return in.ours->cull(scene.frustum); });
     race.add(kOursTwo, [&] { return in.ours_two->cull(scene.frustum); });
-    if (const auto status = race.check(); !status) return tl::unexpected(status.error());
+    SWATH_TRY_VOID(race.check());
     race.run(repetitions, kFrames);
     return race;
 }
@@ -84,8 +84,7 @@ class Worst {
 // octree.
 Status race_cull_and_sort(CullingBench& bench, const BoxSet& set, Structures& in, Worst& worst) {
     const std::vector<std::uint32_t> keys = random_keys(set.boxes.size(), kPoints, 3);
-    auto literal = LiteralSort::make(keys, kPoints, bench.one);
-    if (!literal) return tl::unexpected(literal.error());
+    SWATH_TRY(auto literal, LiteralSort::make(keys, kPoints, bench.one));
     CullAndSort ours(set.boxes, keys, bench.one);
     std::vector<Race> races;
     for (const ObjectScene& scene : object_scenes(set.view_bounds)) {
@@ -93,7 +92,7 @@ Status race_cull_and_sort(CullingBench& bench, const BoxSet& set, Structures& in
                   scene.name);
         const auto last = std::make_shared<std::span<const std::uint32_t>>();
         race.add(
-            "ALGO5, literal R and M", [&] { *last = literal->sort(in.octree.cull(scene.frustum)); },
+            "ALGO5, literal R and M", [&] { *last = literal.sort(in.octree.cull(scene.frustum)); },
             [&] {
                 Race::Ids ids(last->begin(), last->end());
                 // They are sorted by key already; if not, this must not hide it.
@@ -105,7 +104,7 @@ Status race_cull_and_sort(CullingBench& bench, const BoxSet& set, Structures& in
                 return ids;
             });
         race.add(kOurs, [&] { return ours.cull(scene.frustum); });
-        if (const auto status = race.check(Race::Order::kSame); !status) return status;
+        SWATH_TRY_VOID(race.check(Race::Order::kSame));
         race.run(bench.repetitions(9));
         worst.offer(race.ratios("ALGO5, literal R and M", kOurs), fmt::format("{}, {}", set.name, scene.name),
                     true);
@@ -120,9 +119,8 @@ Result<std::vector<BoxSet>> million(CullingBench& bench) {
     const std::size_t count = bench.count(1'000'000);
     std::vector<BoxSet> sets{random_boxes(count, 1), clustered_boxes(count, 2)};
     if (const auto room = test::shared_model("conference.ply")) {
-        auto real = triangle_boxes(room->string(), count);
-        if (!real) return tl::unexpected(real.error());
-        sets.push_back(std::move(*real));
+        SWATH_TRY(auto real, triangle_boxes(room->string(), count));
+        sets.push_back(std::move(real));
         bench.figures.note(
             "real: the Conference's 331,179 triangles, as many copies side by side as it takes");
     } else {
@@ -152,26 +150,23 @@ std::vector<double> refit_times(CullingBench& bench, const BoxSet& set) {
 Status bench_million(CullingBench& bench) {
     Worst against_flat;
     Worst cull_sort;
-    const auto sets = million(bench);
-    if (!sets) return tl::unexpected(sets.error());
-    for (const BoxSet& set : *sets) {
+    SWATH_TRY(const auto sets, million(bench));
+    for (const BoxSet& set : sets) {
         const bool in_order = set.name != "random order";
         Structures structures(set, bench, in_order);
         std::vector<Race> races;
         for (const ObjectScene& scene : object_scenes(set.view_bounds)) {
-            const auto race = race_objects(set, scene, structures, bench.repetitions(11));
-            if (!race) return tl::unexpected(race.error());
-            races.push_back(*race);
-            against_flat.offer(race->ratios(kOurs, kFlat), fmt::format("{}, {}", set.name, scene.name),
-                               false);
+            SWATH_TRY(const auto race, race_objects(set, scene, structures, bench.repetitions(11)));
+            races.push_back(race);
+            against_flat.offer(race.ratios(kOurs, kFlat), fmt::format("{}, {}", set.name, scene.name), false);
             if (set.name != "random") continue;
             if (scene.name == "c60") {
-                bench.figures.add("objects_1m_c60_vs_algo5", race->ratios(kAlgo5, kOurs), "x",
+                bench.figures.add("objects_1m_c60_vs_algo5", race.ratios(kAlgo5, kOurs), "x",
                                   "at least 15: a million boxes at random, one thread");
-                bench.figures.add("objects_1m_c60_vs_bullet", race->ratios(kBullet, kOurs), "x",
+                bench.figures.add("objects_1m_c60_vs_bullet", race.ratios(kBullet, kOurs), "x",
                                   "at least 50");
             } else if (scene.name == "k30") {
-                bench.figures.add("objects_1m_k30_vs_bullet", race->ratios(kBullet, kOurs), "x",
+                bench.figures.add("objects_1m_k30_vs_bullet", race.ratios(kBullet, kOurs), "x",
                                   "at least 50");
             }
         }
@@ -180,7 +175,7 @@ Status bench_million(CullingBench& bench) {
             bench.figures.add("refit_1m_ms", refit_times(bench, set), "ms",
                               "at most 10: a million boxes have moved, one thread");
         if (!in_order) continue;
-        if (const auto status = race_cull_and_sort(bench, set, structures, cull_sort); !status) return status;
+        SWATH_TRY_VOID(race_cull_and_sort(bench, set, structures, cull_sort));
     }
     bench.figures.add(
         "objects_1m_worst_vs_flat", against_flat.samples(), "x",
@@ -196,13 +191,12 @@ Status bench_ten_million(CullingBench& bench) {
     Structures structures(set, bench, true);
     std::vector<Race> races;
     for (const ObjectScene& scene : object_scenes(set.view_bounds)) {
-        const auto race = race_objects(set, scene, structures, bench.repetitions(7));
-        if (!race) return tl::unexpected(race.error());
-        races.push_back(*race);
+        SWATH_TRY(const auto race, race_objects(set, scene, structures, bench.repetitions(7)));
+        races.push_back(race);
         if (scene.name != "c60") continue;
-        bench.figures.add("objects_10m_c60_vs_algo5", race->ratios(kAlgo5, kOurs), "x",
+        bench.figures.add("objects_10m_c60_vs_algo5", race.ratios(kAlgo5, kOurs), "x",
                           "at least 10: ten million boxes at random, one thread");
-        bench.figures.add("objects_10m_c60_vs_bullet", race->ratios(kBullet, kOurs), "x", "at least 35");
+        bench.figures.add("objects_10m_c60_vs_bullet", race.ratios(kBullet, kOurs), "x", "at least 35");
     }
     bench.figures.note(table(title_of(set), races));
     return {};
@@ -211,7 +205,7 @@ Status bench_ten_million(CullingBench& bench) {
 }  // namespace
 
 Status bench_objects(CullingBench& bench) {
-    if (const auto status = bench_million(bench); !status) return status;
+    SWATH_TRY_VOID(bench_million(bench));
     return bench_ten_million(bench);
 }
 

@@ -41,7 +41,7 @@ Status draw(Renderer& renderer, LeafCull& cull, const Frame& frame, Cost& cost) 
         const Nanoseconds begin = clock.thread_cpu();
         const DrawList list = cull.cull(task.group, task.view, task.content);
         const Nanoseconds culled = clock.thread_cpu();
-        if (const auto status = renderer.draw(list.runs, task.view, task.content); !status) return status;
+        SWATH_TRY_VOID(renderer.draw(list.runs, task.view, task.content));
         cost.render_ms += static_cast<double>((clock.thread_cpu() - culled).count()) * 1e-6;
         cost.cull_us += static_cast<double>((culled - begin).count()) * 1e-3;
         cost.triangles += static_cast<double>(list.triangles);
@@ -53,8 +53,7 @@ Status draw(Renderer& renderer, LeafCull& cull, const Frame& frame, Cost& cost) 
 // same.
 Status measure(Figures& figures, const Effort& effort, const std::string& name, const ObjectSet& coarse,
                const ObjectSet& fine, const std::vector<Frame>& frames) {
-    auto renderer = make_renderer(RendererSetup{}, coarse);
-    if (!renderer) return tl::unexpected(renderer.error());
+    SWATH_TRY(auto renderer, make_renderer(RendererSetup{}, coarse));
     const SteadyClock clock;
     ThreadTeam team(1, clock);
     std::array<LeafCull, 2> culls{LeafCull(CullAlgorithm::kWide, coarse, team),
@@ -68,8 +67,7 @@ Status measure(Figures& figures, const Effort& effort, const std::string& name, 
         std::array<Cost, 2> costs;
         for (const Frame& frame : frames)
             for (std::size_t way = 0; way < culls.size(); ++way)
-                if (const auto status = draw(**renderer, culls[way], frame, costs[way]); !status)
-                    return status;
+                SWATH_TRY_VOID(draw(*renderer, culls[way], frame, costs[way]));
         if (i < 0) continue;  // a warm-up for the caches and Mesa's shaders
         for (std::size_t way = 0; way < culls.size(); ++way) {
             triangles[way].push_back(costs[way].triangles / count);
@@ -107,12 +105,11 @@ Result<std::vector<Frame>> from_inside(const ObjectSet& scene) {
 
 // Frames of four sort-first servers, with the camera around the model.
 Result<std::vector<Frame>> mahd_of_four(const ObjectSet& scene) {
-    const auto cameras = make_path("orbit", scene.bounds, {kCameras, 1, 4.0f / 3.0f, 1.0f});
-    if (!cameras) return tl::unexpected(cameras.error());
+    SWATH_TRY(const auto cameras, make_path("orbit", scene.bounds, {kCameras, 1, 4.0f / 3.0f, 1.0f}));
     const auto partitioner = make_partitioner(Algorithm::kMahd, scene.objects);
     std::vector<Frame> frames;
-    for (FrameNumber number = 0; number < cameras->size(); ++number) {
-        const View view = make_view((*cameras)[number], kWidth, kHeight);
+    for (FrameNumber number = 0; number < cameras.size(); ++number) {
+        const View view = make_view(cameras[number], kWidth, kHeight);
         const auto projected = project(scene.objects, view);
         Frame& frame = frames.emplace_back();
         for (const ServerShare& share : partitioner->partition({number, view, projected, 4}).servers)
@@ -123,17 +120,13 @@ Result<std::vector<Frame>> mahd_of_four(const ObjectSet& scene) {
 
 Status measure_model(Figures& figures, const Effort& effort, const std::string& name,
                      const std::string& model, Result<std::vector<Frame>> (*frames_of)(const ObjectSet&)) {
-    const auto mesh = load_model(model);
-    if (!mesh) return tl::unexpected(mesh.error());
+    SWATH_TRY(const auto mesh, load_model(model));
     // Takes the default number of objects, and a small one, with objects much larger than a leaf.
     for (const std::size_t objects : {std::size_t{1500}, std::size_t{100}}) {
-        const ObjectSet coarse = build_objects(*mesh, {.objects = objects, .leaf_triangles = kWholeObjects});
-        const ObjectSet fine = build_objects(*mesh, {.objects = objects});
-        const auto frames = frames_of(coarse);
-        if (!frames) return tl::unexpected(frames.error());
-        const auto status =
-            measure(figures, effort, fmt::format("{}_{}", name, objects), coarse, fine, *frames);
-        if (!status) return status;
+        const ObjectSet coarse = build_objects(mesh, {.objects = objects, .leaf_triangles = kWholeObjects});
+        const ObjectSet fine = build_objects(mesh, {.objects = objects});
+        SWATH_TRY(const auto frames, frames_of(coarse));
+        SWATH_TRY_VOID(measure(figures, effort, fmt::format("{}_{}", name, objects), coarse, fine, frames));
     }
     return {};
 }
@@ -142,8 +135,7 @@ Status measure_model(Figures& figures, const Effort& effort, const std::string& 
 
 Status bench_culling_render(Figures& figures, const Effort& effort) {
     set_raster_threads(0);  // all on one thread, whose CPU time is then that of drawing
-    if (const auto status = measure_model(figures, effort, "mahd4", effort.model, mahd_of_four); !status)
-        return status;
+    SWATH_TRY_VOID(measure_model(figures, effort, "mahd4", effort.model, mahd_of_four));
     if (is_builtin(effort.model))
         return measure_model(figures, effort, "inside", "builtin:town:20000", from_inside);
     const auto room = test::shared_model("conference.ply");

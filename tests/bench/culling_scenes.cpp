@@ -167,11 +167,10 @@ BoxSet clustered_boxes(std::size_t count, unsigned seed) {
 }
 
 Result<BoxSet> triangle_boxes(const std::string& model, std::size_t count) {
-    const auto mesh = load_model(model);
-    if (!mesh) return tl::unexpected(mesh.error());
-    const Box room = bounds(*mesh);
+    SWATH_TRY(const auto mesh, load_model(model));
+    const Box room = bounds(mesh);
     const std::array<int, 3> axes = axes_by_length(room);
-    const auto copies = (count + mesh->triangle_count() - 1) / mesh->triangle_count();
+    const auto copies = (count + mesh.triangle_count() - 1) / mesh.triangle_count();
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(copies))));
     BoxSet set{"real", {}, {}};
     set.boxes.reserve(count);
@@ -179,10 +178,10 @@ Result<BoxSet> triangle_boxes(const std::string& model, std::size_t count) {
         glm::vec3 place(0);
         place[axes[0]] = static_cast<float>(copy % columns) * room.size()[axes[0]];
         place[axes[1]] = static_cast<float>(copy / columns) * room.size()[axes[1]];
-        for (std::size_t t = 0; t < mesh->triangle_count() && set.boxes.size() < count; ++t) {
+        for (std::size_t t = 0; t < mesh.triangle_count() && set.boxes.size() < count; ++t) {
             Box box;
             for (std::size_t k = 0; k < 3; ++k)
-                box.extend(mesh->vertices[mesh->indices[3 * t + k]].position + place);
+                box.extend(mesh.vertices[mesh.indices[3 * t + k]].position + place);
             set.boxes.push_back(box);
             set.view_bounds.extend(box);
         }

@@ -45,9 +45,8 @@ class Sorts {
     static Result<std::unique_ptr<Sorts>> make(std::vector<std::uint32_t> keys, std::uint64_t points,
                                                ThreadTeam& team) {
         auto sorts = std::unique_ptr<Sorts>(new Sorts(std::move(keys), points, team));
-        auto literal = LiteralSort::make(sorts->keys_, points, team);
-        if (!literal) return tl::unexpected(literal.error());
-        sorts->literal_ = std::make_unique<LiteralSort>(std::move(*literal));
+        SWATH_TRY(auto literal, LiteralSort::make(sorts->keys_, points, team));
+        sorts->literal_ = std::make_unique<LiteralSort>(std::move(literal));
         return sorts;
     }
     Result<Race> race(const std::string& scene, std::span<const std::uint32_t> visible, int repetitions) {
@@ -61,8 +60,7 @@ class Sorts {
         add("radix", radix_);
         add("bitmap", bitmap_);
         add("chosen", chosen_);
-        if (const auto status = race.check(Race::Order::kSame); !status)
-            return tl::unexpected(status.error());
+        SWATH_TRY_VOID(race.check(Race::Order::kSame));
         race.run(repetitions);
         return race;
     }
@@ -97,20 +95,18 @@ std::vector<std::uint32_t> random_keys(std::size_t count, std::uint64_t points, 
 
 Status bench_sorts(CullingBench& bench) {
     const std::size_t count = bench.count(1'000'000);
-    const auto sorts = Sorts::make(random_keys(count, kPoints, 1), kPoints, bench.one);
-    if (!sorts) return tl::unexpected(sorts.error());
+    SWATH_TRY(const auto sorts, Sorts::make(random_keys(count, kPoints, 1), kPoints, bench.one));
     std::vector<double> least;
     std::string scene;
     std::vector<Race> races;
     for (const std::size_t per_mille : {1u, 9u, 90u, 330u, 990u}) {
         const auto visible = some_of(count, count * per_mille / 1000, 2);
-        const SortMethod method = (*sorts)->method_for(visible.size());
-        const auto race =
-            (*sorts)->race(fmt::format("chosen: {}", name_of(method)), visible, bench.repetitions(9));
-        if (!race) return tl::unexpected(race.error());
-        races.push_back(*race);
+        const SortMethod method = sorts->method_for(visible.size());
+        SWATH_TRY(const auto race,
+                  sorts->race(fmt::format("chosen: {}", name_of(method)), visible, bench.repetitions(9)));
+        races.push_back(race);
         // With a thousand objects a frame's sorting does not matter.
-        const auto ratios = race->ratios("std::sort", "chosen");
+        const auto ratios = race.ratios("std::sort", "chosen");
         if (per_mille >= 90 && (least.empty() || median(ratios) < median(least))) {
             least = ratios;
             scene = fmt::format("{} visible", visible.size());
@@ -138,15 +134,13 @@ Status draw_time_over_resources(CullingBench& bench) {
         for (int bits = 4; bits <= (bench.effort.smoke ? 8 : 20); bits += 2) {
             const std::uint64_t points = std::uint64_t{1} << bits;
             plot.x_tics.emplace_back(points, short_number(points));
-            const auto sorts = Sorts::make(random_keys(count, points, 1), points, bench.one);
-            if (!sorts) return tl::unexpected(sorts.error());
-            const auto race = (*sorts)->race(short_number(points), visible, bench.repetitions(5));
-            if (!race) return tl::unexpected(race.error());
+            SWATH_TRY(const auto sorts, Sorts::make(random_keys(count, points, 1), points, bench.one));
+            SWATH_TRY(const auto race, sorts->race(short_number(points), visible, bench.repetitions(5)));
             for (sim::Series& series : plot.series)
-                series.points.emplace_back(points, race->us(series.name) / 1000);
+                series.points.emplace_back(points, race.us(series.name) / 1000);
         }
         const auto stem = fmt::format("time_over_resources_{}", per_mille);
-        if (const auto status = draw_with_csv(plot, bench.effort.out / stem); !status) return status;
+        SWATH_TRY_VOID(draw_with_csv(plot, bench.effort.out / stem));
     }
     return {};
 }

@@ -55,7 +55,7 @@ class TreeRace {
         add_ours(kOursTwo, bench_.two, &WideOctree::cull);
     }
     Result<Race> run(int repetitions) {
-        if (const auto status = race_.check(); !status) return tl::unexpected(status.error());
+        SWATH_TRY_VOID(race_.check());
         race_.run(repetitions);
         return std::move(race_);
     }
@@ -88,19 +88,18 @@ Status bench_whole_tree(CullingBench& bench) {
     TreeRace contest(bench, tree, scene, title_of(tree, scene));
     contest.add_published();
     contest.add_every_node();
-    const auto race = contest.run(bench.repetitions(25));
-    if (!race) return tl::unexpected(race.error());
+    SWATH_TRY(const auto race, contest.run(bench.repetitions(25)));
     bench.figures.note(table(
-        fmt::format("{} levels, {} nodes, all tested", height + 1, tree.shape().node_count()), {&*race, 1}));
-    bench.figures.add("same_nodes_1t", race->ratios(kCanonical, kSame), "x",
+        fmt::format("{} levels, {} nodes, all tested", height + 1, tree.shape().node_count()), {&race, 1}));
+    bench.figures.add("same_nodes_1t", race.ratios(kCanonical, kSame), "x",
                       "at least 7: ALGO5 / ours, the whole tree of 7 levels, every node tested");
-    bench.figures.add("same_nodes_2t", race->ratios(kCanonical, kSameTwo), "x",
+    bench.figures.add("same_nodes_2t", race.ratios(kCanonical, kSameTwo), "x",
                       "at least 12: the same, ours with two threads");
-    const bool adaptive = race->us(kTwoStep) < race->us(kTwoStepBest);
+    const bool adaptive = race.us(kTwoStep) < race.us(kTwoStepBest);
     const std::string level = adaptive ? "adaptive" : fmt::format("level {}", contest.best_level());
-    bench.figures.add("a2ssb_lanes_2t", race->ratios(kCanonical, kTwoStepLanes), "x",
+    bench.figures.add("a2ssb_lanes_2t", race.ratios(kCanonical, kTwoStepLanes), "x",
                       "no bar: the same with all planes tested at once, which ALGO5 does not");
-    bench.figures.add("a2ssb_2t", race->ratios(kCanonical, adaptive ? kTwoStep : kTwoStepBest), "x",
+    bench.figures.add("a2ssb_2t", race.ratios(kCanonical, adaptive ? kTwoStep : kTwoStepBest), "x",
                       fmt::format("at least 2.5 when quiet: ALGO5 / A2SSB with two threads, {}", level));
     return {};
 }
@@ -120,7 +119,7 @@ Status bench_allocation(CullingBench& bench) {
         add_walk(race, name, make_published_walk(PublishedAlgorithm::kAlgo5, *trees.back(), bench.one),
                  scene.frustum);
     }
-    if (const auto status = race.check(); !status) return status;
+    SWATH_TRY_VOID(race.check());
     race.run(bench.repetitions(7));
     bench.figures.note(
         table(fmt::format("ALGO5 by the order of allocation, {} levels", height + 1), {&race, 1}));
@@ -144,12 +143,11 @@ Status bench_early_out(CullingBench& bench) {
         contest.add_published();
         contest.add_every_node();
         contest.add_early_out();
-        const auto race = contest.run(bench.repetitions(11));
-        if (!race) return tl::unexpected(race.error());
+        SWATH_TRY(const auto race, contest.run(bench.repetitions(11)));
         bench.figures.add(
-            figure, race->ratios(kCanonical, kOurs), "x",
+            figure, race.ratios(kCanonical, kOurs), "x",
             fmt::format("at least {}: ALGO5 / ours, 8 levels, one thread, {}", least, scene.name));
-        races.push_back(*race);
+        races.push_back(race);
     }
     bench.figures.note(table(
         fmt::format("{} levels, {} nodes, one thread unless said", height + 1, tree.shape().node_count()),
@@ -160,8 +158,8 @@ Status bench_early_out(CullingBench& bench) {
 }  // namespace
 
 Status bench_trees(CullingBench& bench) {
-    if (const auto status = bench_whole_tree(bench); !status) return status;
-    if (const auto status = bench_allocation(bench); !status) return status;
+    SWATH_TRY_VOID(bench_whole_tree(bench));
+    SWATH_TRY_VOID(bench_allocation(bench));
     return bench_early_out(bench);
 }
 
@@ -201,14 +199,13 @@ Status draw_time_over_nodes(CullingBench& bench) {
             contest.add_published();
             contest.add_every_node();
             if (!every_node) contest.add_early_out();
-            const auto race = contest.run(bench.repetitions(5));
-            if (!race) return tl::unexpected(race.error());
+            SWATH_TRY(const auto race, contest.run(bench.repetitions(5)));
             const std::uint64_t nodes = tree.shape().node_count();
             plot.x_tics.emplace_back(nodes, short_number(nodes));
             for (sim::Series& series : plot.series)
-                series.points.emplace_back(nodes, race->us(series.name) / 1000);
+                series.points.emplace_back(nodes, race.us(series.name) / 1000);
         }
-        if (const auto status = draw_with_csv(plot, bench.effort.out / stem); !status) return status;
+        SWATH_TRY_VOID(draw_with_csv(plot, bench.effort.out / stem));
     }
     return {};
 }

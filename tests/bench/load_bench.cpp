@@ -12,10 +12,9 @@ Status bench_load(Figures& figures, const Effort& effort) {
     std::vector<double> reading;
     for (int i = 0; i <= effort.repetitions; ++i) {
         const auto begin = std::chrono::steady_clock::now();
-        auto mesh = load_model(effort.model);
-        if (!mesh) return tl::unexpected(mesh.error());
+        SWATH_TRY(auto mesh, load_model(effort.model));
         const auto read = std::chrono::steady_clock::now();
-        const ObjectSet scene = build_objects(std::move(*mesh), {});
+        const ObjectSet scene = build_objects(std::move(mesh), {});
         const auto end = std::chrono::steady_clock::now();
         if (i == 0) continue;
         reading.push_back(std::chrono::duration<double>(read - begin).count());

@@ -8,11 +8,10 @@ Status bench_octree(Figures& figures, const Effort& effort) {
         std::filesystem::create_directories(effort.out, error);
         if (error) return fail("{}: {}", effort.out.string(), error.message());
     }
-    auto scenes = octree_scenes(figures, effort);
-    if (!scenes) return tl::unexpected(scenes.error());
-    OctreeBench bench{figures, effort, std::move(*scenes)};
+    SWATH_TRY(auto scenes, octree_scenes(figures, effort));
+    OctreeBench bench{figures, effort, std::move(scenes)};
     for (Status (*const part)(OctreeBench&) : {bench_octree_builds, bench_octree_rays, bench_octree_scaling})
-        if (const auto status = part(bench); !status) return status;
+        SWATH_TRY_VOID(part(bench));
     return bench.draws() ? bench_octree_trade(bench) : Status{};
 }
 

@@ -111,10 +111,8 @@ Status bench_scene(OctreeBench& bench, const OctreeScene& scene, sim::Bars::Grou
     EmbreeBuild medium_again(scene, device, EmbreeQuality::kMedium, true);
     auto kd_tree = build_sah_kd_tree(scene.triangles(), kDefaultSah);
     if (!kd_tree) return tl::unexpected(kd_tree.error());
-    const auto our_tree = ours.tree();
-    if (!our_tree) return tl::unexpected(our_tree.error());
-    const auto fast_tree = fast.tree();
-    if (!fast_tree) return tl::unexpected(fast_tree.error());
+    SWATH_TRY(const auto our_tree, ours.tree());
+    SWATH_TRY(const auto fast_tree, fast.tree());
 
     Race slow(scene.name, scene.name);
     slow.add_work(
@@ -143,9 +141,9 @@ Status bench_scene(OctreeBench& bench, const OctreeScene& scene, sim::Bars::Grou
     };
     BuildTable table(scene, cost(*kd_tree));
     table.row(kKdTree, ms(slow.us(kKdTree)), *kd_tree);
-    table.row(kOurs, ms(quick.us(kOurs)), *our_tree);
-    table.row(kFresh, ms(quick.us(kFresh)), our_tree->bytes());
-    table.row(kFast, ms(quick.us(kFast)), *fast_tree);
+    table.row(kOurs, ms(quick.us(kOurs)), our_tree);
+    table.row(kFresh, ms(quick.us(kFresh)), our_tree.bytes());
+    table.row(kFast, ms(quick.us(kFast)), fast_tree);
     table.row(kHigh, ms(slow.us(kHigh)), embree_bytes(EmbreeQuality::kHigh));
     table.row(kMedium, ms(quick.us(kMedium)), embree_bytes(EmbreeQuality::kMedium));
     table.row(kMediumAgain, ms(quick.us(kMediumAgain)), medium_again.bytes());
@@ -164,7 +162,7 @@ Status bench_scene(OctreeBench& bench, const OctreeScene& scene, sim::Bars::Grou
     if (!scene.has_bars) return {};
     bench.figures.add("build_vs_kdtree_" + scene.name, slow.ratios(kKdTree, kOurs), "x",
                       "at least 8: time of the serial SAH kd-tree / ours, 2 threads");
-    bench.figures.add("sah_cost_vs_kdtree_" + scene.name, {cost(*our_tree) / cost(*kd_tree)}, "x",
+    bench.figures.add("sah_cost_vs_kdtree_" + scene.name, {cost(our_tree) / cost(*kd_tree)}, "x",
                       "at most 1.15: SAH cost, ours / the kd-tree's");
     bench.figures.add("build_vs_embree_medium_" + scene.name, quick.ratios(kOurs, kMedium), "x",
                       "at most 2: time, ours / Embree medium, 2 threads each");
@@ -182,7 +180,7 @@ Status bench_octree_builds(OctreeBench& bench) {
     bars.segments = {kKdTree, kOurs, kFast, kHigh, kMedium, kLow};
     for (const OctreeScene& scene : bench.scenes) {
         sim::Bars::Group group{scene.name, {}};
-        if (const auto status = bench_scene(bench, scene, group); !status) return status;
+        SWATH_TRY_VOID(bench_scene(bench, scene, group));
         bars.groups.push_back(std::move(group));
     }
     return bench.draws() ? draw_with_csv(bars, bench.effort.out / "octree_builds") : Status{};

@@ -116,12 +116,11 @@ struct Trees {
     SahTree kd;
 };
 Result<Trees> build_trees(const OctreeScene& scene) {
-    auto ours = OurBuild(scene, kDefaultSah, kBuildThreads).tree();
-    auto fast = OurBuild(scene, kFastSah, kBuildThreads).tree();
-    auto kd = build_sah_kd_tree(scene.triangles(), kDefaultSah);
-    for (const auto* tree : {&ours, &fast, &kd})
-        if (!*tree) return tl::unexpected(tree->error());
-    return Trees{std::move(*ours), std::move(*fast), std::move(*kd)};
+    Trees trees;
+    SWATH_TRY(trees.ours, OurBuild(scene, kDefaultSah, kBuildThreads).tree());
+    SWATH_TRY(trees.fast, OurBuild(scene, kFastSah, kBuildThreads).tree());
+    SWATH_TRY(trees.kd, build_sah_kd_tree(scene.triangles(), kDefaultSah));
+    return trees;
 }
 
 // The nodes and triangles that rays of every fourth tile meet, in packets and each alone.
@@ -180,8 +179,7 @@ constexpr const char* kMediumAvx2 = "Embree medium, avx2";
 constexpr const char* kHigh = "Embree high";
 
 Result<Race> race_scene(OctreeBench& bench, const OctreeScene& scene) {
-    const auto trees = build_trees(scene);
-    if (!trees) return tl::unexpected(trees.error());
+    SWATH_TRY(const auto trees, build_trees(scene));
     EmbreeDevice device(kBuildThreads);
     EmbreeDevice narrow(kBuildThreads, "avx2");
     EmbreeScene low(device, scene.set.mesh, EmbreeQuality::kLow);
@@ -205,21 +203,19 @@ Result<Race> race_scene(OctreeBench& bench, const OctreeScene& scene) {
                            },
                            false});
     };
-    add_ours(kOurs, trees->ours, best_instruction_set());
+    add_ours(kOurs, trees.ours, best_instruction_set());
     add_embree(kMedium, medium);
     for (const InstructionSet set : instruction_sets())
-        if (set != best_instruction_set())
-            add_ours(fmt::format("{}, {}", kOurs, name(set)), trees->ours, set);
-    add_ours(kFast, trees->fast, best_instruction_set());
-    add_ours(kKdTree, trees->kd, best_instruction_set());
+        if (set != best_instruction_set()) add_ours(fmt::format("{}, {}", kOurs, name(set)), trees.ours, set);
+    add_ours(kFast, trees.fast, best_instruction_set());
+    add_ours(kKdTree, trees.kd, best_instruction_set());
     add_embree(kLow, low);
     add_embree(kHigh, high);
     add_embree(kMediumAvx2, medium_avx2);
 
-    const auto edges = check(scene, casters);
-    if (!edges) return tl::unexpected(edges.error());
-    bench.figures.note(*edges);
-    bench.figures.note(work_table(scene, *trees));
+    SWATH_TRY(const auto edges, check(scene, casters));
+    bench.figures.note(edges);
+    bench.figures.note(work_table(scene, trees));
     Race race("rays", scene.name);
     for (const Caster& caster : casters)
         race.add_work(caster.name, {}, [&scene, &caster] {
@@ -245,16 +241,15 @@ Status bench_octree_rays(OctreeBench& bench) {
     bars.y_label = "million rays a second";
     bars.segments = {kKdTree, kOurs, kFast, kHigh, kMedium, kLow};
     for (const OctreeScene& scene : bench.scenes) {
-        const auto race = race_scene(bench, scene);
-        if (!race) return tl::unexpected(race.error());
+        SWATH_TRY(const auto race, race_scene(bench, scene));
         const auto rate = [&](const std::string& name) {
-            return static_cast<double>(scene.rays()) / race->us(name);
+            return static_cast<double>(scene.rays()) / race.us(name);
         };
         head += fmt::format("{:>16}", scene.name);
         units += fmt::format("{:>9} {:>6}", "Mray/s", "/med.");
         for (std::size_t i = 0; i < names.size(); ++i)
             lines[i] +=
-                fmt::format("{:>9.1f} {:>6.2f}", rate(names[i]), median(race->ratios(kMedium, names[i])));
+                fmt::format("{:>9.1f} {:>6.2f}", rate(names[i]), median(race.ratios(kMedium, names[i])));
         sim::Bars::Group group{scene.name, {}};
         for (std::size_t i = 0; i < bars.segments.size(); ++i) {
             sim::Bars::Bar bar{"", std::vector<double>(bars.segments.size())};
@@ -263,7 +258,7 @@ Status bench_octree_rays(OctreeBench& bench) {
         }
         bars.groups.push_back(std::move(group));
         if (scene.has_bars)
-            bench.figures.add("rays_vs_embree_" + scene.name, race->ratios(kMedium, kOurs), "x",
+            bench.figures.add("rays_vs_embree_" + scene.name, race.ratios(kMedium, kOurs), "x",
                               "at least 0.5: primary rays a second, ours / Embree medium, one thread");
     }
     std::string text = head + units;

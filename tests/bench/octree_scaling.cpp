@@ -82,8 +82,7 @@ struct Entrants {
 
 Result<Race> race_scene(OctreeBench& bench, const OctreeScene& scene) {
     const SteadyClock clock;
-    const auto tree = OurBuild(scene, kDefaultSah, kBuildThreads).tree();
-    if (!tree) return tl::unexpected(tree.error());
+    SWATH_TRY(const auto tree, OurBuild(scene, kDefaultSah, kBuildThreads).tree());
     EmbreeDevice device(kBuildThreads);
     EmbreeScene hierarchy(device, scene.set.mesh, EmbreeQuality::kMedium);
     hierarchy.commit();
@@ -98,7 +97,7 @@ Result<Race> race_scene(OctreeBench& bench, const OctreeScene& scene) {
     for (const auto& each : entrants) each->add_build(race, kJobs[3], each->low);
     for (const auto& each : entrants)
         each->add_rays(race, kJobs[4], scene, [&](const RayView& view, int first, int last) {
-            cast_ours(scene, *tree, best_instruction_set(), view, first, last, nullptr);
+            cast_ours(scene, tree, best_instruction_set(), view, first, last, nullptr);
         });
     for (const auto& each : entrants)
         each->add_rays(race, kJobs[5], scene, [&](const RayView& view, int first, int last) {
@@ -114,8 +113,7 @@ Status bench_octree_scaling(OctreeBench& bench) {
     const std::vector<std::size_t> counts = thread_counts();
     for (const OctreeScene& scene : bench.scenes) {
         if (!scene.has_bars) continue;
-        const auto race = race_scene(bench, scene);
-        if (!race) return tl::unexpected(race.error());
+        SWATH_TRY(const auto race, race_scene(bench, scene));
         sim::Plot plot;
         plot.title = fmt::format("Speed-up over threads, {}", scene.name);
         plot.x_label = "threads";
@@ -126,9 +124,9 @@ Status bench_octree_scaling(OctreeBench& bench) {
             sim::Series series{job.name, {}, job.style, job.colour};
             text += fmt::format("\n  {:24}", job.name);
             for (const std::size_t count : counts) {
-                const double speed_up = median(race->ratios(entrant(job, 1), entrant(job, count)));
+                const double speed_up = median(race.ratios(entrant(job, 1), entrant(job, count)));
                 series.points.emplace_back(count, speed_up);
-                text += fmt::format("{:>11.1f} {:>6.2f}", ms(race->us(entrant(job, count))), speed_up);
+                text += fmt::format("{:>11.1f} {:>6.2f}", ms(race.us(entrant(job, count))), speed_up);
             }
             plot.series.push_back(std::move(series));
         }
@@ -138,9 +136,7 @@ Status bench_octree_scaling(OctreeBench& bench) {
             {"ideal",
              {{1.0, 1.0}, {static_cast<double>(counts.back()), static_cast<double>(counts.back())}},
              sim::Style::kReference});
-        if (const auto status = draw_with_csv(plot, bench.effort.out / ("octree_threads_" + scene.name));
-            !status)
-            return status;
+        SWATH_TRY_VOID(draw_with_csv(plot, bench.effort.out / ("octree_threads_" + scene.name)));
     }
     return {};
 }

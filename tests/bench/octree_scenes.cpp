@@ -54,9 +54,8 @@ std::vector<RayView> views_of(const Box& box, bool room, bool smoke) {
 }
 
 Result<OctreeScene> load(const std::string& name, const std::string& model, bool has_bars, bool smoke) {
-    auto mesh = load_model(model);
-    if (!mesh) return tl::unexpected(mesh.error());
-    OctreeScene scene{name, has_bars, build_objects(std::move(*mesh), {}), {}, {}};
+    SWATH_TRY(auto mesh, load_model(model));
+    OctreeScene scene{name, has_bars, build_objects(std::move(mesh), {}), {}, {}};
     std::vector<glm::vec3> positions;
     for (const Vertex& vertex : scene.set.mesh.vertices) positions.push_back(vertex.position);
     const SteadyClock clock;
@@ -109,9 +108,8 @@ Result<std::vector<OctreeScene>> octree_scenes(Figures& figures, const Effort& e
     }
     std::vector<OctreeScene> scenes;
     for (const Wanted& one : wanted) {
-        auto scene = load(one.name, one.model, one.has_bars, effort.smoke);
-        if (!scene) return tl::unexpected(scene.error());
-        scenes.push_back(std::move(*scene));
+        SWATH_TRY(auto scene, load(one.name, one.model, one.has_bars, effort.smoke));
+        scenes.push_back(std::move(scene));
     }
     return scenes;
 }

@@ -66,15 +66,13 @@ Result<std::vector<Traded>> trade(OctreeBench& bench, const OctreeScene& scene,
     const auto cost = [](const SahTree& tree) {
         return sah_cost(tree, kDefaultSah.traversal_cost, kDefaultSah.intersection_cost);
     };
-    const auto kd_tree = build_sah_kd_tree(scene.triangles(), kDefaultSah);
-    if (!kd_tree) return tl::unexpected(kd_tree.error());
+    SWATH_TRY(const auto kd_tree, build_sah_kd_tree(scene.triangles(), kDefaultSah));
     // One builder builds all in turn, so that none pays for memory that another has already.
     SahBuilder builder(kBuildThreads);
     std::vector<SahTree> trees;
     for (const Variant& variant : all) {
-        auto tree = builder.build(scene.triangles(), variant.settings);
-        if (!tree) return tl::unexpected(tree.error());
-        trees.push_back(std::move(*tree));
+        SWATH_TRY(auto tree, builder.build(scene.triangles(), variant.settings));
+        trees.push_back(std::move(tree));
     }
     Race builds("builds", scene.name);
     Race rays("rays", scene.name);
@@ -92,7 +90,7 @@ Result<std::vector<Traded>> trade(OctreeBench& bench, const OctreeScene& scene,
     rays.run(bench.repetitions(scene, 3), 1);
     std::vector<Traded> traded;
     for (std::size_t i = 0; i < all.size(); ++i)
-        traded.push_back({ms(builds.us(all[i].name())), 100 * (cost(trees[i]) / cost(*kd_tree) - 1),
+        traded.push_back({ms(builds.us(all[i].name())), 100 * (cost(trees[i]) / cost(kd_tree) - 1),
                           static_cast<double>(scene.rays()) / rays.us(all[i].name()),
                           static_cast<double>(trees[i].triangles.size()) /
                               static_cast<double>(scene.set.mesh.triangle_count())});
@@ -120,9 +118,7 @@ Status draw_trade(OctreeBench& bench, const OctreeScene& scene, const std::vecto
                                                     plot == &cost ? traded[i].more_cost : traded[i].mrays);
         }
     }
-    if (const auto status = draw_with_csv(cost, bench.effort.out / ("octree_trade_cost_" + scene.name));
-        !status)
-        return status;
+    SWATH_TRY_VOID(draw_with_csv(cost, bench.effort.out / ("octree_trade_cost_" + scene.name)));
     return draw_with_csv(rays, bench.effort.out / ("octree_trade_rays_" + scene.name));
 }
 
@@ -145,18 +141,17 @@ Status bench_octree_trade(OctreeBench& bench) {
     std::size_t colour = 0;
     for (const OctreeScene& scene : bench.scenes) {
         if (!scene.has_bars) continue;
-        const auto traded = trade(bench, scene, all);
-        if (!traded) return tl::unexpected(traded.error());
+        SWATH_TRY(const auto traded, trade(bench, scene, all));
         const auto usual_at = std::ranges::find_if(all, [](const Variant& variant) {
             return variant.setting == kThreshold && variant.settings == kDefaultSah;
         });
-        const Traded& usual = traded->at(static_cast<std::size_t>(usual_at - all.begin()));
+        const Traded& usual = traded.at(static_cast<std::size_t>(usual_at - all.begin()));
         sim::Series builds{scene.name + ", build time", {}, sim::Style::kLine, colour};
         sim::Series rays{scene.name + ", time of rays", {}, sim::Style::kDashed, colour++};
         head += fmt::format("{:>28}", scene.name);
         units += fmt::format("{:>10}{:>9}{:>9}", "ms", "cost +%", "Mray/s");
         for (std::size_t i = 0; i < all.size(); ++i) {
-            const Traded& one = (*traded)[i];
+            const Traded& one = traded[i];
             csv += fmt::format("{},{},{:g},{:.4g},{:.4g},{:.4g},{:.4g}\n", csv_field(scene.name),
                                csv_field(all[i].setting), all[i].value, one.build_ms, one.more_cost,
                                one.mrays, one.duplication);
@@ -167,13 +162,13 @@ Status bench_octree_trade(OctreeBench& bench) {
         }
         threshold.series.push_back(std::move(builds));
         threshold.series.push_back(std::move(rays));
-        if (const auto status = draw_trade(bench, scene, all, *traded); !status) return status;
+        SWATH_TRY_VOID(draw_trade(bench, scene, all, traded));
     }
     std::string text = head + units;
     for (std::size_t i = 0; i < all.size(); ++i)
         text += fmt::format("\n  {:24}{}", i + 2 < all.size() ? all[i].name() : all[i].setting, lines[i]);
     bench.figures.note(text);
-    if (const auto status = write_file(bench.effort.out / "octree_trade.csv", csv); !status) return status;
+    SWATH_TRY_VOID(write_file(bench.effort.out / "octree_trade.csv", csv));
     return draw_with_csv(threshold, bench.effort.out / "octree_threshold");
 }
 

@@ -73,7 +73,7 @@ class CachedRenderer final : public Renderer {
         PixelFrame& cached = frames_[key_];
         if (cached.rect().empty()) {
             cached.reshape(rect);
-            if (const auto status = renderer_->read(rect, cached); !status) return status;
+            SWATH_TRY_VOID(renderer_->read(rect, cached));
         }
         for (int y = rect.y0; y < rect.y1; ++y) {
             const std::size_t bytes = 4 * static_cast<std::size_t>(rect.width());
@@ -154,9 +154,8 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
             return make_server(io, options, clock,
                                [](const RendererSetup& setup,
                                   const ObjectSet& objects) -> Result<std::unique_ptr<Renderer>> {
-                                   auto renderer = make_renderer(setup, objects);
-                                   if (!renderer) return renderer;
-                                   return std::make_unique<CachedRenderer>(std::move(*renderer));
+                                   SWATH_TRY(auto renderer, make_renderer(setup, objects));
+                                   return std::make_unique<CachedRenderer>(std::move(renderer));
                                });
         }));
     const Child display(
@@ -185,13 +184,13 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
     const SteadyClock clock;
     std::size_t done = 0;
     StopSignals signals(kExitFailed, true);
-    const auto timelines = run_cluster(
-        std::move(job), clock, signals, [](const std::string&, std::size_t) {},
-        [&](FrameNumber, const Buffer&) -> Status {
-            if (++done % kViews == 0) cpu_at.push_back(all_cpu());
-            return {};
-        });
-    if (!timelines) return tl::unexpected(timelines.error());
+    const auto on_picture = [&](FrameNumber, const Buffer&) -> Status {
+        if (++done % kViews == 0) cpu_at.push_back(all_cpu());
+        return {};
+    };
+    SWATH_TRY(const auto timelines,
+              run_cluster(
+                  std::move(job), clock, signals, [](const std::string&, std::size_t) {}, on_picture));
 
     std::vector<double> cpu_ns;
     std::vector<double> kib;
@@ -199,7 +198,7 @@ Status bench_swap_stage(Figures& figures, const Effort& effort, const Peer& peer
         double other = 0;
         double bytes = 0;
         for (std::size_t f = pass * kViews; f < (pass + 1) * kViews; ++f)
-            for (const MachineTimeline& machine : (*timelines)[f].machines) {
+            for (const MachineTimeline& machine : timelines[f].machines) {
                 bytes += static_cast<double>(machine[Counter::kSwapBytes] + machine[Counter::kTileBytes]);
                 for (const Span& span : machine.spans)
                     if (span.phase == Phase::kPartition || span.phase == Phase::kCull ||
@@ -277,14 +276,11 @@ Status bench_frames(Figures& figures, const Effort& effort, const Box& bounds) {
 
 Status bench_peers(Figures& figures, const Effort& effort) {
     ::setenv("LP_NUM_THREADS", "0", 1);
-    const auto mesh = load_model(effort.model);
-    if (!mesh) return tl::unexpected(mesh.error());
-    const auto scene = std::make_shared<const ObjectSet>(build_objects(*mesh, {}));
+    SWATH_TRY(const auto mesh, load_model(effort.model));
+    const auto scene = std::make_shared<const ObjectSet>(build_objects(mesh, {}));
     {
         const OneCore one_core;
-        for (const Peer& peer : kPeers)
-            if (const auto status = bench_swap_stage(figures, effort, peer, scene, *mesh); !status)
-                return status;
+        for (const Peer& peer : kPeers) SWATH_TRY_VOID(bench_swap_stage(figures, effort, peer, scene, mesh));
     }
     figures.note(
         "IceT 2.2.0: 2.6, 3.8, 6.2 ns and 2,934, 4,018, 5,809 KiB on 2, 4, 8 ranks (direct, TCP, one core).");

@@ -24,7 +24,7 @@ Status draw_with_csv(const sim::Plot& plot, const std::filesystem::path& stem) {
         for (const std::string& value : values) csv += ',' + value;
         csv += '\n';
     }
-    if (const auto status = write_file(stem.string() + ".csv", csv); !status) return status;
+    SWATH_TRY_VOID(write_file(stem.string() + ".csv", csv));
     return sim::draw(plot, stem);
 }
 
@@ -38,7 +38,7 @@ Status draw_with_csv(const sim::Bars& bars, const std::filesystem::path& stem) {
             csv += fmt::format(",{:.6g}", group.bars.at(i).values.at(i));
         csv += '\n';
     }
-    if (const auto status = write_file(stem.string() + ".csv", csv); !status) return status;
+    SWATH_TRY_VOID(write_file(stem.string() + ".csv", csv));
     return sim::draw(bars, stem);
 }
 

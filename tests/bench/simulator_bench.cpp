@@ -23,24 +23,21 @@ double seconds_since(Time begin) {
 
 // All rows of Table 1 with one model for all three, in both modes, on all cores.
 Status bench_table1(Figures& figures, const Effort& effort, bool smoke) {
-    const auto model = sim::load_study_model("model", effort.model, {4, 0});
-    if (!model) return tl::unexpected(model.error());
-    const auto hardware = sim::find_hardware("paper-2000");
-    if (!hardware) return tl::unexpected(hardware.error());
+    SWATH_TRY(const auto model, sim::load_study_model("model", effort.model, {4, 0}));
+    SWATH_TRY(const auto hardware, sim::find_hardware("paper-2000"));
     sim::PathSpec spec;
     spec.frames = smoke ? 2 : 50;
     spec.zoom = 1.06;
     spec.seeds = smoke ? 1 : 5;
-    const auto paths = sim::make_paths(spec, model->scene.bounds, 1280, 960);
-    if (!paths) return tl::unexpected(paths.error());
+    SWATH_TRY(const auto paths, sim::make_paths(spec, model.scene.bounds, 1280, 960));
     std::vector<sim::Experiment> rows;
     for (const char* name : {"hand", "dragon", "buddha"}) {
         for (const Algorithm algorithm : {Algorithm::kHybrid, Algorithm::kMahd, Algorithm::kSortLast}) {
             for (const std::size_t servers : {8u, 16u, 32u, 64u}) {
                 sim::Experiment row;
-                row.model = &*model;
-                row.paths = &*paths;
-                row.hardware = &*hardware;
+                row.model = &model;
+                row.paths = &paths;
+                row.hardware = &hardware;
                 row.algorithm = algorithm;
                 row.servers = servers;
                 row.algorithm_name = name_of(algorithm);
@@ -138,7 +135,7 @@ void bench_partition(Figures& figures, std::size_t count, std::size_t servers, c
 
 Status bench_simulator(Figures& figures, const Effort& effort) {
     const bool smoke = effort.repetitions <= 1;
-    if (auto status = bench_table1(figures, effort, smoke); !status) return status;
+    SWATH_TRY_VOID(bench_table1(figures, effort, smoke));
     std::vector<double> rates;
     for (int i = 0; i < effort.repetitions; ++i) rates.push_back(events_per_s(smoke ? 10'000 : 2'000'000));
     figures.add("events_per_s", rates, "1/s", "at least 1,000,000: the event queue, one core");

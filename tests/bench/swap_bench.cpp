@@ -78,13 +78,10 @@ void bench_composite(Figures& figures, int repetitions, std::size_t n, const std
 }  // namespace
 
 Status bench_swap(Figures& figures, const Effort& effort) {
-    auto mesh = load_model(effort.model);
-    if (!mesh) return tl::unexpected(mesh.error());
-    const ObjectSet scene = build_objects(std::move(*mesh), {});
-    const auto cameras = make_path("orbit", scene.bounds, {8, 1, 4.0f / 3.0f, 1.0f});
-    if (!cameras) return tl::unexpected(cameras.error());
-    auto renderer = make_renderer(RendererSetup{}, scene);
-    if (!renderer) return tl::unexpected(renderer.error());
+    SWATH_TRY(auto mesh, load_model(effort.model));
+    const ObjectSet scene = build_objects(std::move(mesh), {});
+    SWATH_TRY(const auto cameras, make_path("orbit", scene.bounds, {8, 1, 4.0f / 3.0f, 1.0f}));
+    SWATH_TRY(auto renderer, make_renderer(RendererSetup{}, scene));
 
     const auto partitioner = make_partitioner(Algorithm::kHybrid, scene.objects);
     const SteadyClock clock;
@@ -92,8 +89,8 @@ Status bench_swap(Figures& figures, const Effort& effort) {
     LeafCull cull(CullAlgorithm::kWide, scene, team);
     std::vector<double> bytes_a_pixel;
     std::vector<double> ids_a_pixel;
-    for (FrameNumber number = 0; number < cameras->size(); ++number) {
-        const View view = make_view((*cameras)[number], 1280, 960);
+    for (FrameNumber number = 0; number < cameras.size(); ++number) {
+        const View view = make_view(cameras[number], 1280, 960);
         const auto projected = project(scene.objects, view);
         const FramePlan plan = partitioner->partition({number, view, projected, 8});
         double pixels = 0;
@@ -103,9 +100,9 @@ Status bench_swap(Figures& figures, const Effort& effort) {
         for (const Transfer& t : transfers(plan)) {
             const ServerShare& share = plan.servers[index(t.from)];
             const DrawList list = cull.cull(share.group, view, share.content);
-            if (const auto s = (*renderer)->draw(list.runs, view, share.content); !s) return s;
+            SWATH_TRY_VOID(renderer->draw(list.runs, view, share.content));
             frame.reshape(share.content);
-            if (const auto s = (*renderer)->read(share.content, frame); !s) return s;
+            SWATH_TRY_VOID(renderer->read(share.content, frame));
             Buffer body;
             const BodySizes sizes = encode_swath(frame, t.region, body);
             pixels += sizes.pixels;

@@ -45,11 +45,9 @@ class Page {
     static Result<std::unique_ptr<Page>> open(const std::string& line) {
         static constexpr std::string_view kScheme = "http://";
         const auto begin = line.find(kScheme) + kScheme.size();
-        const auto address = parse_address(line.substr(begin, line.find('/', begin) - begin));
-        if (!address) return tl::unexpected(address.error());
-        auto client = test::WebClient::connect(*address);
-        if (!client) return tl::unexpected(client.error());
-        return std::unique_ptr<Page>(new Page(std::move(*client)));
+        SWATH_TRY(const auto address, parse_address(line.substr(begin, line.find('/', begin) - begin)));
+        SWATH_TRY(auto client, test::WebClient::connect(address));
+        return std::unique_ptr<Page>(new Page(std::move(client)));
     }
 
     // The next message; nothing if none came in time.
@@ -188,14 +186,12 @@ Status bench_cost(Figures& figures, const Effort& effort, const Programs& progra
         for (const std::string& way : ways) {
             std::optional<Audience> audience;
             if (way == "watched") {
-                auto page = Page::open(page_line);
-                if (!page) return tl::unexpected(page.error());
-                audience.emplace(std::move(*page));
+                SWATH_TRY(auto page, Page::open(page_line));
+                audience.emplace(std::move(page));
             }
             const double before_s = all_cpu_s();
-            const auto measured = frames_per_s(way == "plain" ? plain_address : viewed_address);
-            if (!measured) return tl::unexpected(measured.error());
-            fps[way] = *measured;
+            SWATH_TRY(const auto measured, frames_per_s(way == "plain" ? plain_address : viewed_address));
+            fps[way] = measured;
             cpu[way] = all_cpu_s() - before_s;
             if (audience) pictures += audience->pictures();
         }
@@ -271,12 +267,11 @@ class Lag {
 // Steers as a viewer who turns the model all the time, with a new wish every animation frame.
 Status bench_steering(Figures& figures, const Effort& effort, const Programs& programs) {
     const auto client = programs.start("swath-client", {"builtin:knot:20000", "--local", "2", "--view", "0"});
-    auto page = Page::open(client->wait_for_line("viewer http://", kPatience));
-    if (!page) return tl::unexpected(page.error());
+    SWATH_TRY(auto page, Page::open(client->wait_for_line("viewer http://", kPatience)));
     json wish{{"type", "wish"}, {"id", 0}, {"width", 1280}, {"height", 960}};
     const auto begin = Clock::now();
     while (!wish.contains("camera")) {
-        const auto heard = (*page)->hear(kPatience);
+        const auto heard = page->hear(kPatience);
         if (!heard) return fail("no session came");
         if (!heard->picture && heard->value.value("type", "") == "session")
             wish["camera"] = heard->value.at("home");
@@ -302,14 +297,13 @@ Status bench_steering(Figures& figures, const Effort& effort, const Programs& pr
                 wish["camera"][0] = home[3].get<double>() + dx * std::cos(angle) + dz * std::sin(angle);
                 wish["camera"][2] = home[5].get<double>() + dz * std::cos(angle) - dx * std::sin(angle);
                 lag.sent(id, now);
-                (*page)->say(wish);
+                page->say(wish);
                 next = std::max(next + kAnimationFrame, now);
             }
             const auto wait = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
-            if (const auto heard = (*page)->hear(std::max(wait, std::chrono::milliseconds(0))))
-                lag.hear(*heard);
+            if (const auto heard = page->hear(std::max(wait, std::chrono::milliseconds(0)))) lag.hear(*heard);
         }
-        if (!(*page)->connected()) return fail("the display has closed the connection");
+        if (!page->connected()) return fail("the display has closed the connection");
         if (round == 0 && !effort.smoke) continue;
         const auto beyond = lag.beyond_ms();
         if (beyond.empty()) return fail("no picture came of {} wishes", id);
@@ -347,8 +341,7 @@ double busiest_ms(const json& note) {
 Status bench_prediction(Figures& figures, const Effort& effort, const Programs& programs) {
     const std::string model = effort.smoke ? "builtin:knot:20000" : "builtin:knot:200000";
     const auto client = programs.start("swath-client", {model, "--local", "2", "--view", "0"});
-    auto page = Page::open(client->wait_for_line("viewer http://", kPatience));
-    if (!page) return tl::unexpected(page.error());
+    SWATH_TRY(auto page, Page::open(client->wait_for_line("viewer http://", kPatience)));
     const std::vector<std::string> algorithms{"hybrid", "mahd", "kd-split", "sort-last"};
     constexpr int kFrames = 24;
     constexpr int kPassedOver = 4;  // frames after a change, some of which are another algorithm's
@@ -359,14 +352,14 @@ Status bench_prediction(Figures& figures, const Effort& effort, const Programs& 
         std::map<std::string, std::vector<double>> predicted_ms;
         std::map<std::string, std::vector<double>> measured_ms;
         for (const std::string& algorithm : algorithms) {
-            (*page)->say({{"type", "wish"},
-                          {"id", ++id},
-                          {"width", 1280},
-                          {"height", 960},
-                          {"path", "orbit"},
-                          {"algorithm", algorithm}});
+            page->say({{"type", "wish"},
+                       {"id", ++id},
+                       {"width", 1280},
+                       {"height", 960},
+                       {"path", "orbit"},
+                       {"algorithm", algorithm}});
             for (int frames = 0; frames < kFrames + kPassedOver;) {
-                const auto heard = (*page)->hear(kPatience);
+                const auto heard = page->hear(kPatience);
                 if (!heard) return fail("no more frames came");
                 if (heard->picture || heard->value.value("type", "") != "frame" ||
                     heard->value.at("algorithm") != algorithm)
@@ -395,8 +388,8 @@ Status bench_prediction(Figures& figures, const Effort& effort, const Programs& 
 Status bench_viewer(Figures& figures, const Effort& effort) {
     const Programs programs;
     try {
-        if (const auto status = bench_cost(figures, effort, programs); !status) return status;
-        if (const auto status = bench_steering(figures, effort, programs); !status) return status;
+        SWATH_TRY_VOID(bench_cost(figures, effort, programs));
+        SWATH_TRY_VOID(bench_steering(figures, effort, programs));
         return bench_prediction(figures, effort, programs);
     } catch (
         const std::exception& error) {  // a program ended or said nothing, a note is not what it should be
