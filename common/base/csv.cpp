@@ -17,8 +17,9 @@ class Reader {
     Result<CsvRecord> record() {
         CsvRecord record{line_, {}};
         for (;;) {
-            SWATH_TRY(std::string field, at_end() || text_[at_] != '"' ? plain() : quoted());
-            record.fields.push_back(std::move(field));
+            auto field = at_end() || text_[at_] != '"' ? plain() : quoted();
+            if (!field) return tl::unexpected(field.error());
+            record.fields.push_back(std::move(*field));
             if (take("\n") || take("\r\n")) {
                 ++line_;
                 return record;

@@ -10,8 +10,7 @@
 
 namespace swath {
 
-// A kind of work that a machine does for a frame. Measured and simulated frames have the same phases
-// (docs/design.md).
+// What a machine does for a frame. Measured and simulated frames have the same phases (docs/design.md).
 enum class Phase : std::uint8_t {
     kPartition,   // client: objects and camera to a plan
     kCull,        // server: leaves of the group's objects against the content's frustum
@@ -28,7 +27,7 @@ enum class Phase : std::uint8_t {
 inline constexpr std::size_t kPhaseCount = 11;
 std::string_view name(Phase phase);  // "partition", "cull", "render", "pixel read", ...; CHECKs the range
 
-// A number that a machine counts for a frame.
+// What a machine counted for a frame.
 enum class Counter : std::uint8_t {
     kTriangles,       // server: drawn after culling
     kObjects,         // server: drawn after culling
@@ -69,7 +68,7 @@ struct MachineTimeline {
     bool operator==(const MachineTimeline&) const = default;
 };
 
-// The times and counts of one frame, which the cluster measured or the simulator computed. A value. A
+// What one frame took on every machine, as the cluster measured or the simulator computed it. A value. A
 // machine's spans may overlap those of neighbouring frames.
 struct FrameTimeline {
     FrameNumber frame = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Steps that the kernels of the hierarchy and of the octree share. Only for kernels, like lanes.h.
+// What the kernels of the hierarchy and of the octree have in common. As lanes.h, only for kernels.
 #include <cstddef>
 #include <cstdint>
 
