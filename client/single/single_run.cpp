@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "client/path/path.h"
-#include "common/cull/leaf_cull.h"
+#include "common/cullers/make_culler.h"
 #include "common/image/pixel_codec.h"
 #include "common/renderers/make_renderer.h"
 #include "common/timeline/phase_timer.h"
@@ -16,7 +16,7 @@ Result<std::vector<FrameTimeline>> render_single(
     SWATH_TRY(auto renderer, make_renderer(job.renderer, *job.scene));
     std::vector<ObjectId> all(job.scene->objects.size());
     ThreadTeam team(job.renderer.threads, clock);
-    LeafCull cull(job.cull, *job.scene, team);
+    LeafCull cull = make_leaf_cull(job.cull, *job.scene, team);
     std::iota(all.begin(), all.end(), ObjectId{0});
 
     std::vector<FrameTimeline> timelines;

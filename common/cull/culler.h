@@ -1,20 +1,17 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 
-#include "common/base/thread_team.h"
-#include "common/cull/cull_algorithm.h"
 #include "common/geometry/box.h"
 #include "common/geometry/frustum.h"
 
 namespace swath {
 
 // Finds which of a set of boxes may be seen. Whatever the algorithm, the answer is the same: all boxes
-// that are not outside(frustum, box), ascending. One thread at a time; the ThreadTeam it was made with must
-// outlive it and be idle when it is called.
+// that are not outside(frustum, box), ascending. One thread at a time; a ThreadTeam that it was made with
+// must outlive it and be idle when it is called.
 class Culler {
   public:
     virtual ~Culler() = default;
@@ -25,9 +22,5 @@ class Culler {
     // The level of the octree at which the last call shared out its work, of algorithms that have one.
     virtual std::optional<int> split_level() const { return std::nullopt; }
 };
-
-// Copies what it needs of `boxes`, which should come in an order in which neighbours are near (as leaves of
-// an ObjectSet do): any order is right, but a bad one is slow. At most 2^31 boxes.
-std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box> boxes, ThreadTeam& team);
 
 }  // namespace swath

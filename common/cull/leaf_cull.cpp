@@ -22,13 +22,16 @@ DrawList whole(const ObjectSet& scene, std::span<const ObjectId> group) {
 
 }  // namespace
 
-LeafCull::LeafCull(CullAlgorithm algorithm, const ObjectSet& scene, ThreadTeam& team) : scene_(scene) {
-    if (algorithm == CullAlgorithm::kNone) return;
+std::vector<Box> leaf_boxes(const ObjectSet& scene) {
     std::vector<Box> boxes;
     boxes.reserve(scene.leaves.size());
     for (const Leaf& leaf : scene.leaves) boxes.push_back(leaf.box);
-    culler_ = make_culler(algorithm, boxes, team);
-    if (scene.moves()) boxes_ = std::move(boxes);
+    return boxes;
+}
+
+LeafCull::LeafCull(std::unique_ptr<Culler> culler, const ObjectSet& scene)
+    : scene_(scene), culler_(std::move(culler)) {
+    if (culler_ && scene.moves()) boxes_ = leaf_boxes(scene);
 }
 
 // Moves the leaves there, if they move and are not there yet.

@@ -23,11 +23,14 @@ struct DrawList {
     bool operator==(const DrawList&) const = default;
 };
 
-// Culls the leaves of a model, frame by frame. One thread at a time; scene and team must outlive it.
+// The boxes of a model's leaves at pose 0.
+std::vector<Box> leaf_boxes(const ObjectSet& scene);
+
+// Culls the leaves of a model, frame by frame. One thread at a time; the scene must outlive it.
 class LeafCull {
   public:
-    // kNone culls nothing.
-    LeafCull(CullAlgorithm algorithm, const ObjectSet& scene, ThreadTeam& team);
+    // A culler of leaf_boxes(scene), or null to cull nothing.
+    LeafCull(std::unique_ptr<Culler> culler, const ObjectSet& scene);
 
     // Those leaves of `group` (ascending ids, each below the number of objects) that may cover a pixel centre
     // of `rect`: all but those whose boxes at the view's pose are outside make_frustum(view, rect, bounds of

@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "common/cullers/make_culler.h"
 #include "common/timeline/phase_timer.h"
 
 namespace swath {
@@ -34,7 +35,7 @@ Status DrawThread::configure(const Drawing& drawing) {
     if (!cull_ || drawing.cull != drawing_.cull) {
         cull_.reset();
         team_ = std::make_unique<ThreadTeam>(drawing.cull == CullAlgorithm::kNone ? 1 : threads_, clock_);
-        cull_ = std::make_unique<LeafCull>(drawing.cull, scene_, *team_);
+        cull_ = std::make_unique<LeafCull>(make_leaf_cull(drawing.cull, scene_, *team_));
     }
     drawing_ = drawing;
     if (renderer_) return {};

@@ -140,6 +140,25 @@ TEST(Arrows, WithinCommonGoToLowerLayersOnly) {
                             "common's layers"));
 }
 
+TEST(Arrows, ToWhatReproducesPapersComeFromCullersAndTestsOnly) {
+    for (const char* from :
+         {"client/single/a.cpp", "server/session/a.cpp", "display/main.cpp", "sim/cost/a.h"})
+        EXPECT_THAT(
+            forbidden_arrows({{from, {"common/published/cull/a.h"}}}),
+            ElementsAre(fmt::format("{} -> common/published/cull/a.h: what only reproduces papers is for "
+                                    "common/cullers and tests",
+                                    from)));
+    for (const char* from : {"common/cull/a.h", "common/scene/a.cpp", "common/raycast/a.cpp",
+                             "common/renderers/a.cpp", "common/wire/a.cpp", "common/program/a.cpp"})
+        EXPECT_THAT(
+            forbidden_arrows({{from, {"common/published/octree/a.h"}}}),
+            ElementsAre(fmt::format("{} -> common/published/octree/a.h: not a lower layer of common", from)));
+    EXPECT_THAT(forbidden_arrows({{"common/cullers/a.cpp", {"common/published/cull/a.h"}},
+                                  {"common/published/cull/a.h", {"common/cull/a.h"}},
+                                  {"tests/bench/a.cpp", {"common/published/resource/a.h"}}}),
+                IsEmpty());
+}
+
 TEST(Headers, OfProtobufAsioAndBeastAreReportedOutsideTheirFolders) {
     EXPECT_THAT(forbidden_headers({{"client/cluster/a.cpp", {"common/wire/swath.pb.h", "boost/asio.hpp"}}}),
                 ElementsAre("client/cluster/a.cpp -> common/wire/swath.pb.h: protobuf stays in common/wire"));

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "common/cull/published/published_walk.h"
+#include "common/published/cull/published_walk.h"
 #include "tests/bench/culling_bench.h"
 #include "tests/bench/plots.h"
 

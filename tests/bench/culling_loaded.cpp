@@ -6,7 +6,7 @@
 #include <atomic>
 #include <csignal>
 
-#include "common/cull/culler.h"
+#include "common/cull/wide/wide_culler.h"
 #include "tests/bench/culling_bench.h"
 
 namespace swath::bench {
@@ -50,12 +50,12 @@ class Load {
 Status bench_loaded(CullingBench& bench) {
     const BoxSet set = random_boxes(bench.count(1'000'000), 1);
     const Frustum frustum = object_scenes(set.view_bounds)[1].frustum;  // k30
-    const auto one = make_culler(CullAlgorithm::kWide, set.boxes, bench.one);
-    const auto two = make_culler(CullAlgorithm::kWide, set.boxes, bench.two);
+    WideCuller one(set.boxes, bench.one);
+    WideCuller two(set.boxes, bench.two);
     const std::string title = fmt::format("{} boxes, every core busy with another process", set.boxes.size());
     Race race(title, "k30");
-    race.add("one thread", [&] { return one->cull(frustum); });
-    race.add("two threads", [&] { return two->cull(frustum); });
+    race.add("one thread", [&] { return one.cull(frustum); });
+    race.add("two threads", [&] { return two.cull(frustum); });
     SWATH_TRY_VOID(race.check());
     const Load load;
     race.run(bench.repetitions(15), bench.effort.smoke ? 10 : 1000, Race::Frames::kMean);

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "common/cull/published/object_octree.h"
 #include "common/cull/wide/flat_scan.h"
+#include "common/cull/wide/wide_culler.h"
 #include "common/cull/wide/wide_hierarchy.h"
-#include "common/resource/cull_and_sort.h"
-#include "common/resource/resource_array.h"
+#include "common/published/cull/object_octree.h"
+#include "common/published/resource/cull_and_sort.h"
+#include "common/published/resource/resource_array.h"
 #include "tests/bench/culling_bench.h"
 #include "tests/bench/culling_peers.h"
 #include "tests/support/models.h"
@@ -26,15 +27,15 @@ struct Structures {
         : octree(set.boxes),
           blocks(set.boxes),
           flat(blocks, bench.one),
-          ours(make_culler(CullAlgorithm::kWide, set.boxes, bench.one)),
-          ours_two(make_culler(CullAlgorithm::kWide, set.boxes, bench.two)) {
+          ours(set.boxes, bench.one),
+          ours_two(set.boxes, bench.two) {
         if (in_order) bullet.emplace(set.boxes);
     }
     ObjectOctree octree;
     BoxBlocks blocks;
     FlatScan flat;
-    std::unique_ptr<Culler> ours;
-    std::unique_ptr<Culler> ours_two;
+    WideCuller ours;
+    WideCuller ours_two;
     std::optional<BulletTree> bullet;
 };
 
@@ -51,8 +52,8 @@ Result<Race> race_objects(const BoxSet& set, const ObjectScene& scene, Structure
             [&, last] { return settle_rounding(*last, set.boxes, scene.frustum); });
     }
     race.add(kFlat, [&] { return in.flat.cull(scene.frustum); });
-    race.add(kOurs, [&] { return in.ours->cull(scene.frustum); });
-    race.add(kOursTwo, [&] { return in.ours_two->cull(scene.frustum); });
+    race.add(kOurs, [&] { return in.ours.cull(scene.frustum); });
+    race.add(kOursTwo, [&] { return in.ours_two.cull(scene.frustum); });
     SWATH_TRY_VOID(race.check());
     race.run(repetitions, kFrames);
     return race;

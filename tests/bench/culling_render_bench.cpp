@@ -4,7 +4,7 @@
 #include "client/partition/partitioner.h"
 #include "client/partition/projection.h"
 #include "client/path/path.h"
-#include "common/cull/leaf_cull.h"
+#include "common/cullers/make_culler.h"
 #include "common/program/program.h"
 #include "common/renderers/make_renderer.h"
 #include "common/scene/model.h"
@@ -56,8 +56,8 @@ Status measure(Figures& figures, const Effort& effort, const std::string& name, 
     SWATH_TRY(auto renderer, make_renderer(RendererSetup{}, coarse));
     const SteadyClock clock;
     ThreadTeam team(1, clock);
-    std::array<LeafCull, 2> culls{LeafCull(CullAlgorithm::kWide, coarse, team),
-                                  LeafCull(CullAlgorithm::kWide, fine, team)};
+    std::array<LeafCull, 2> culls{make_leaf_cull(CullAlgorithm::kWide, coarse, team),
+                                  make_leaf_cull(CullAlgorithm::kWide, fine, team)};
     std::array<std::vector<double>, 2> triangles;
     std::array<std::vector<double>, 2> cull_us;
     std::array<std::vector<double>, 2> render_ms;

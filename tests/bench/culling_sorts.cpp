@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <random>
 
-#include "common/resource/resource_array.h"
-#include "common/resource/resource_sorter.h"
+#include "common/published/resource/resource_array.h"
+#include "common/published/resource/resource_sorter.h"
 #include "tests/bench/culling_bench.h"
 #include "tests/bench/plots.h"
 

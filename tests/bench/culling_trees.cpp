@@ -1,4 +1,4 @@
-#include "common/cull/wide/wide_octree.h"
+#include "common/published/cull/wide_octree.h"
 #include "tests/bench/culling_bench.h"
 #include "tests/bench/culling_walks.h"
 #include "tests/bench/plots.h"

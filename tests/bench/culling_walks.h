@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "common/cull/published/published_walk.h"
+#include "common/published/cull/published_walk.h"
 #include "tests/bench/race.h"
 
 namespace swath::bench {

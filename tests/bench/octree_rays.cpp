@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/octree/sah/sah_kd_tree.h"
+#include "common/published/octree/sah_kd_tree.h"
 #include "common/raycast/packets.h"
 #include "tests/bench/octree_bench.h"
 #include "tests/bench/plots.h"

@@ -5,7 +5,7 @@
 #include "client/partition/partitioner.h"
 #include "client/partition/projection.h"
 #include "client/path/path.h"
-#include "common/cull/leaf_cull.h"
+#include "common/cullers/make_culler.h"
 #include "common/image/pixel_codec.h"
 #include "common/renderers/make_renderer.h"
 #include "common/scene/model.h"
@@ -86,7 +86,7 @@ Status bench_swap(Figures& figures, const Effort& effort) {
     const auto partitioner = make_partitioner(Algorithm::kHybrid, scene.objects);
     const SteadyClock clock;
     ThreadTeam team(1, clock);
-    LeafCull cull(CullAlgorithm::kWide, scene, team);
+    LeafCull cull = make_leaf_cull(CullAlgorithm::kWide, scene, team);
     std::vector<double> bytes_a_pixel;
     std::vector<double> ids_a_pixel;
     for (FrameNumber number = 0; number < cameras.size(); ++number) {

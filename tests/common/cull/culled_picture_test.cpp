@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "common/cull/leaf_cull.h"
+#include "common/cullers/make_culler.h"
 #include "common/renderers/make_renderer.h"
 #include "tests/common/cull/cull_scenes.h"
 #include "tests/support/drawings.h"
@@ -20,8 +20,8 @@ TEST(CulledPicture, EqualsThatOfTheWholeModel) {
             const std::vector<ObjectId> all = test::all_ids(scene);
             auto renderer = make_renderer(RendererSetup{}, scene);
             ASSERT_TRUE(renderer.has_value()) << renderer.error().message;
-            LeafCull none(CullAlgorithm::kNone, scene, team);
-            LeafCull wide(CullAlgorithm::kWide, scene, team);
+            LeafCull none = make_leaf_cull(CullAlgorithm::kNone, scene, team);
+            LeafCull wide = make_leaf_cull(CullAlgorithm::kWide, scene, team);
             test::RandomViews random(8);
             for (int round = 0; round < 60; ++round) {
                 const View view = random.posed_view(scene);

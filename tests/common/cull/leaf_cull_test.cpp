@@ -8,6 +8,7 @@
 #include <span>
 
 #include "common/base/check.h"
+#include "common/cullers/make_culler.h"
 #include "common/geometry/frustum.h"
 #include "tests/common/cull/cull_scenes.h"
 
@@ -22,7 +23,9 @@ constexpr std::array kAll{CullAlgorithm::kWide, CullAlgorithm::kA2ssb, CullAlgor
 
 class LeafCullTest : public testing::Test {
   protected:
-    LeafCull culler(CullAlgorithm algorithm = CullAlgorithm::kWide) { return {algorithm, scene_, team_}; }
+    LeafCull culler(CullAlgorithm algorithm = CullAlgorithm::kWide) {
+        return make_leaf_cull(algorithm, scene_, team_);
+    }
     std::vector<ObjectId> some(RandomViews& random) const {
         std::vector<ObjectId> group;
         for (const ObjectId id : all_)
@@ -80,7 +83,7 @@ TEST_F(LeafCullTest, DrawsThoseOfAMovingModelAtEveryPoseInAnyOrder) {
     const ObjectSet moving = test::moving_soup(7);
     for (const CullAlgorithm algorithm :
          {CullAlgorithm::kWide, CullAlgorithm::kA2ssb, CullAlgorithm::kAdsb}) {
-        LeafCull cull(algorithm, moving, team_);
+        LeafCull cull = make_leaf_cull(algorithm, moving, team_);
         RandomViews random(10);
         std::size_t partly = 0;
         std::size_t elsewhere = 0;  // frames for which the boxes of pose 0 would be wrong
@@ -106,7 +109,7 @@ TEST_F(LeafCullTest, DrawsThoseOfAMovingModelAtEveryPoseInAnyOrder) {
 
 TEST_F(LeafCullTest, DrawsAllOfAMovingModelAtEveryPoseWithNone) {
     const ObjectSet moving = test::moving_soup(7);
-    LeafCull cull(CullAlgorithm::kNone, moving, team_);
+    LeafCull cull = make_leaf_cull(CullAlgorithm::kNone, moving, team_);
     RandomViews random(10);
     for (int round = 0; round < 5; ++round) {
         const View view = random.posed_view(moving);
@@ -276,7 +279,7 @@ TEST(LeafCullProperty, NoTriangleThatShowsInTheRectangleIsEverDropped) {
         for (const bool moves : {false, true}) {
             const ObjectSet scene = moves ? test::moving_soup(11, offset, 3) : test::soup(11, offset, 3);
             const std::vector<ObjectId> all = all_ids(scene);
-            LeafCull cull(CullAlgorithm::kWide, scene, team);
+            LeafCull cull = make_leaf_cull(CullAlgorithm::kWide, scene, team);
             RandomViews random(6);
             for (int round = 0; round < 40; ++round) {
                 const View view = random.posed_view(scene);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "common/octree/sah/sah_builder.h"
-#include "common/octree/sah/sah_kd_tree.h"
+#include "common/published/octree/sah_kd_tree.h"
 #include "tests/support/triangles.h"
 
 // A builder that is given bad input returns an error that says why, and stays usable.

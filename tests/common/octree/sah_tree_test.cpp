@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "common/octree/sah/sah_builder.h"
-#include "common/octree/sah/sah_kd_tree.h"
+#include "common/published/octree/sah_kd_tree.h"
 #include "common/scene/model.h"
 #include "tests/support/triangles.h"
 

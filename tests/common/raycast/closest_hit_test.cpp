@@ -4,7 +4,7 @@
 #include <array>
 
 #include "common/base/instruction_set.h"
-#include "common/octree/sah/sah_kd_tree.h"
+#include "common/published/octree/sah_kd_tree.h"
 #include "common/scene/model.h"
 #include "tests/common/raycast/rays.h"
 #include "tests/support/models.h"

@@ -1,0 +1,53 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "common/base/sharing.h"
+#include "common/base/thread_team.h"
+#include "common/published/resource/histograms.h"
+#include "common/published/resource/scratch.h"
+
+namespace swath {
+
+// The digits of keys below `points`, least significant first: as few as kMaxBits allow, as equal as they come
+// (131,072 keys: 9 and 8 bits). One key needs no digit.
+struct RadixDigits {
+    static constexpr int kMaxBits = 11;  // 2048 counters, and as many places written to: about what L1 takes
+    static constexpr std::size_t kMax = 3;
+    std::array<int, kMax> bits{};
+    std::size_t count = 0;
+
+    bool operator==(const RadixDigits&) const = default;
+};
+RadixDigits radix_digits(std::uint64_t points);
+
+// Radix sort, least significant digit first: one stable counting sort a digit. Its cost does not know the
+// number of points but through the number of digits, so it is the one for few visible objects in a large
+// space, and the one that stays fast when the counters of all points no longer fit a cache. Between passes
+// an object is its key and id in 64 bits.
+//
+// Made with the objects' keys, which are read, not copied, and must outlive it, as the team must. One thread
+// at a time.
+class RadixSort {
+  public:
+    // Every key is below `points`, at most 2^32.
+    RadixSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team,
+              SharingMode mode = SharingMode::kWhenItPays);
+
+    // `visible`: ids below keys.size(), ascending. The same ids by (key, id), valid until the next call (and
+    // as long as `visible`, which is the answer where there is one key).
+    std::span<const std::uint32_t> sort(std::span<const std::uint32_t> visible);
+
+  private:
+    std::span<const std::uint32_t> keys_;
+    RadixDigits digits_;
+    ThreadTeam& team_;
+    Sharing sharing_;
+    std::array<Histograms, RadixDigits::kMax> histograms_;
+    std::array<Scratch<std::uint64_t>, 2> packed_;
+    Scratch<std::uint32_t> sorted_;
+};
+
+}  // namespace swath
