@@ -9,17 +9,17 @@
 
 namespace swath {
 
-// Finds which of a set of boxes may be seen. Whatever the algorithm, the answer is the same: all boxes
-// that are not outside(frustum, box), ascending. One thread at a time; a ThreadTeam that it was made with
-// must outlive it and be idle when it is called.
+// Finds the boxes that may be seen. Every algorithm gives the same answer: all boxes that are not
+// outside(frustum, box), ascending. One thread at a time. A ThreadTeam that it was made with must outlive it
+// and be idle when it is called.
 class Culler {
   public:
     virtual ~Culler() = default;
-    // Indices of the boxes, ascending. The span is valid until the next call.
+    // The indices of the boxes, ascending. Valid until the next call.
     virtual std::span<const std::uint32_t> cull(const Frustum& frustum) = 0;
-    // The same boxes somewhere else, as many as there were, from now on.
+    // Moves the boxes. There must be as many as before.
     virtual void refit(std::span<const Box> boxes) = 0;
-    // The level of the octree at which the last call shared out its work, of algorithms that have one.
+    // The octree's level at which the last cull() shared its work among threads, if the algorithm has one.
     virtual std::optional<int> split_level() const { return std::nullopt; }
 };
 

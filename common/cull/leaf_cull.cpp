@@ -34,7 +34,7 @@ LeafCull::LeafCull(std::unique_ptr<Culler> culler, const ObjectSet& scene)
     if (culler_ && scene.moves()) boxes_ = leaf_boxes(scene);
 }
 
-// Moves the leaves there, if they move and are not there yet.
+// Moves the leaves to the pose, unless they are there.
 void LeafCull::pose(float pose) {
     if (boxes_.empty() || pose == pose_) return;
     pose_ = pose;

@@ -11,12 +11,12 @@
 
 namespace swath {
 
-// Null for kNone: every box may be seen. Copies what it needs of `boxes`, which should come in an order in
-// which neighbours are near (as leaves of an ObjectSet do): any order is right, but a bad one is slow. At
-// most 2^31 boxes. The team must outlive the culler and be idle when it is called.
+// Makes a culler, or null for kNone. It copies what it needs of `boxes`, which should come in an order in
+// which neighbours are near, as leaves of an ObjectSet do: any order is right, but a bad one is slow. At most
+// 2^31 boxes. The team must outlive the culler and be idle when it is called.
 std::unique_ptr<Culler> make_culler(CullAlgorithm algorithm, std::span<const Box> boxes, ThreadTeam& team);
 
-// Culls the leaves of `scene`, which must outlive it, as the team must.
+// Makes what culls the leaves of `scene`. Scene and team must outlive it.
 LeafCull make_leaf_cull(CullAlgorithm algorithm, const ObjectSet& scene, ThreadTeam& team);
 
 }  // namespace swath

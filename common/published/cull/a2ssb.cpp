@@ -5,7 +5,8 @@
 namespace swath {
 namespace {
 
-// Share k of `size` things dealt out to `parts` in order: it begins here and ends where share k + 1 begins.
+// Where share k of `size` things begins, which are dealt out to `parts` in order. It ends where share k + 1
+// begins.
 std::size_t share_begin(std::size_t size, std::size_t k, std::size_t parts) { return size * k / parts; }
 
 template <class Tree>
@@ -53,7 +54,7 @@ class A2ssb final : public PublishedWalk {
                                *member.nodes);
     }
 
-    // Everybody's lists, one after the other, are one list: processor k's share of it.
+    // All members' lists, one after the other, are one list, of which processor k walks its share.
     void step_two(std::size_t k) {
         std::size_t size = 0;
         for (const auto& member : members_) size += member.nodes->size;

@@ -37,8 +37,8 @@ class Adsb final : public PublishedWalk {
   private:
     Member<Node>& main() { return members_[0]; }
 
-    // Everybody else gets his share of the main processor's list, which keeps the rest. All is dealt out
-    // before anybody starts, so that nobody is at work if there is no memory for it.
+    // Gives every other processor its share of the main processor's list, which keeps the rest. It deals out
+    // all before any starts, so that none is at work if there is no memory for it.
     void start_others() {
         WalkQueue<Node>& list = *main().queue;
         const std::size_t share = (list.tail - list.head) / members_.size();
@@ -50,7 +50,7 @@ class Adsb final : public PublishedWalk {
         }
     }
 
-    // Figure 2.
+    // A processor's work (figure 2).
     void work(std::size_t i) {
         Tree::walks().render_nodes(members_[i].walk, 0, *members_[i].queue);
         if (leaf_task_) leaf_task_(i, contents(members_[i].walk.leaves));

@@ -15,7 +15,7 @@ bool is_finite(const Box& box) {
     return true;
 }
 
-// In double precision: the sum of two floats may be too large for a third.
+// Adds in double precision, because the sum of two floats may be too large for a float.
 glm::dvec3 centre_of(const Box& box) { return 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max)); }
 
 double longest(const glm::dvec3& size) { return std::max({size.x, size.y, size.z}); }
@@ -41,7 +41,7 @@ CellOrder cell_order(std::span<const Box> boxes) {
 
     order.origin = low;
     order.side = longest(high - low);
-    if (order.side == 0) {  // all at one place: a cube around them
+    if (order.side == 0) {  // all are at one place, which gets a cube around it
         order.side = largest > 0 ? largest : 1;
         order.origin -= glm::dvec3(0.5 * order.side);
     }
@@ -53,7 +53,7 @@ CellOrder cell_order(std::span<const Box> boxes) {
     }
     sort_by_code(order.placed);
 
-    // Neighbours part at the level that their codes first differ at: from there on, one cell more.
+    // From the level on which two neighbours' codes first differ, they take one cell more.
     order.occupied.fill(1);
     for (std::size_t i = 1; i < order.placed.size(); ++i) {
         const std::uint32_t differing = order.placed[i - 1].code ^ order.placed[i].code;

@@ -10,20 +10,21 @@
 
 namespace swath {
 
-// Boxes in the order of the cells of a uniform octree that their centres lie in. The octree's cube has its
-// low corner at `origin` and edges of `side` and contains all centres. Boxes that are not finite have no
-// place.
+// Boxes in the order of the cells of a uniform octree in which their centres lie. The octree's cube has its
+// low corner at `origin` and edges of `side` and contains all centres. Boxes that are not finite are
+// unplaced.
 struct CellOrder {
     glm::dvec3 origin{0};
     double side = 1;
-    // Ascending by code, of the cell at level UniformOctree::kMaxHeight, in the papers' child order; with the
-    // box's index.
+    // The boxes' indices, ascending by the code of the cell on level UniformOctree::kMaxHeight, in the
+    // papers' child order.
     std::vector<MortonKey> placed;
     std::vector<std::uint32_t> unplaced;
-    // Cells with a box in them, by level.
+    // The number of cells with a box, by level.
     std::array<std::size_t, UniformOctree::kMaxHeight + 1> occupied{};
 
-    // The lowest tree, no higher than `highest`, that has at most `boxes_per_leaf` to an occupied leaf.
+    // The height of the lowest tree, at most `highest`, with at most `boxes_per_leaf` boxes to an occupied
+    // leaf.
     int height_for(double boxes_per_leaf, int highest) const;
 };
 

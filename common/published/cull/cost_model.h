@@ -2,17 +2,17 @@
 
 namespace swath {
 
-// What A2SSB costs when the whole tree is visible, in nodes that a processor tests or is given: equations 10
-// to 29 of the chapter (section 3.9). Equation 30 says that of a given machine equation 29 is proportional to
-// 8^h. Levels count from 0 at the root, so h = 8 is a tree of "9 levels". 0 <= r <= d <= h, p >= 1.
+// A2SSB's cost if the whole tree is visible, in nodes that a processor tests or is given: equations 10 to 29
+// of the chapter (section 3.9). Equation 30 says that on a given machine equation 29 is proportional to 8^h.
+// Levels count from 0 at the root, so h = 8 is a tree of "9 levels". 0 <= r <= d <= h, p >= 1.
 struct A2ssbCost {
     int height;       // h, of the octree
     int start_level;  // r
     int split_level;  // d
     int processors;   // p
 
-    // Equation 11: S_delta = n_d - n_r. As printed; it leaves out the 8^r nodes of the start level, which
-    // step one tests too.
+    // Equation 11: S_delta = n_d - n_r, as printed. It leaves out the 8^r nodes of the start level, which
+    // step one tests, too.
     double step_one_nodes() const;
     double step_one() const;                // S1: equations 10 and 16
     double nodes_per_processor() const;     // n_p: equation 18

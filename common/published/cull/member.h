@@ -8,7 +8,7 @@
 
 namespace swath {
 
-// The two kinds of tree, as the algorithms see them: nodes of one type, found by level and code.
+// The two kinds of tree as the algorithms see them. Each has one type of node, found by level and code.
 struct StoredTree {
     using Node = StoredNode;
     const PointerOctree& tree;
@@ -31,8 +31,8 @@ struct ComputedTree {
     static const NodeWalks<Node>& walks() { return best_walk_table().computed; }
 };
 
-// What one member of the team has to itself. Two cache lines apart from the next one's, since processors
-// fetch lines in pairs.
+// The data of one member of the team. Members are two cache lines apart, because processors fetch lines in
+// pairs.
 template <class Node>
 struct alignas(128) Member {
     MemberWalk walk{};

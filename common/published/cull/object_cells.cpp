@@ -9,18 +9,18 @@
 namespace swath {
 namespace {
 
-// A leaf costs a test as a box does, so a tree of more leaves than boxes is not worth its walk.
+// A leaf costs a test, like a box, so a tree with more leaves than boxes is not worth its walk.
 constexpr double kBoxesPerLeaf = 4;
 constexpr int kHighest = 7;  // 8 MB of table
 constexpr std::size_t kLeavesPerBox = 2;
-// Boxes of no cell cost a test each in every frame.
+// Boxes in no cell cost a test each in every frame.
 constexpr std::size_t kMostOfNoCellInverse = 16;
 
-// What single precision may lose, relative to the sum of a plane expression's terms, as in frustum.cpp; and
-// for numbers so small that they lose more.
+// The part of a plane expression that single precision may lose, relative to the sum of its terms, as in
+// frustum.cpp. kTiny is for numbers so small that they lose more.
 constexpr double kFloatLoss = 1e-6;
 constexpr double kTiny = 1e-38;
-// Beyond it, single precision may overflow.
+// Single precision may overflow beyond this.
 constexpr double kHuge = 1e37;
 
 int height_of(const CellOrder& order) {
@@ -30,7 +30,7 @@ int height_of(const CellOrder& order) {
     return order.height_for(kBoxesPerLeaf, highest);
 }
 
-// Whether a box lies in its cell made half an edge larger all around.
+// True if a box lies in its cell, made half an edge larger all around.
 bool fits(const Box& box, const OctreeCell& cell, const glm::dvec3& origin, double edge) {
     const glm::dvec3 centre = origin + edge * (glm::dvec3(cell.x, cell.y, cell.z) + 0.5);
     const glm::dvec3 reach =
@@ -80,13 +80,13 @@ ObjectCells::ObjectCells(std::span<const Box> boxes) {
 Frustum ObjectCells::loosened(const Frustum& frustum) const {
     Frustum result;
     for (std::size_t i = 0; i < frustum.planes.size(); ++i) {
-        // A box's point is origin + edge * (a point of the tree).
+        // A point is origin + edge * (the point in the tree's coordinates).
         const glm::dvec3 normal(frustum.planes[i]);
         const double distance = frustum.planes[i].w;
         const glm::dvec3 in_tree = leaf_edge_ * normal;
         const double steepness = std::abs(in_tree.x) + std::abs(in_tree.y) + std::abs(in_tree.z);
         const double at_origin = glm::dot(normal, origin_) + distance;
-        // The terms of the two expressions, the box's and the cell's.
+        // The sums of terms of the two expressions, the boxes' and the cells'.
         const double of_boxes = glm::dot(glm::abs(normal), reach_) + std::abs(distance);
         const double of_cells = steepness * (shape_.edge() + 1) + std::abs(at_origin);
         const double moved = at_origin + 0.5 * steepness + kFloatLoss * (of_boxes + of_cells) + kTiny;

@@ -11,24 +11,24 @@
 namespace swath {
 
 // Objects in the leaves of a uniform octree, so that the published algorithms can cull them: the papers say
-// only that objects "can be stored on the leaves". The tree's frame is in leaf edges; boxes stay as they are
-// and frusta come into the frame, so that walks are exact there and objects are tested exactly here. A cell
-// reaches half a leaf edge beyond itself. Boxes that reach beyond even that, or are not finite, lie in no
-// cell: they are to be tested one by one.
+// only that objects "can be stored on the leaves". The tree's coordinates are in leaf edges. Frusta are
+// transformed and boxes are not, so that walks are exact in the tree and objects are tested exactly outside.
+// A cell holds boxes that reach up to half a leaf edge beyond it. Boxes that reach farther, or are not
+// finite, lie in no cell and must be tested one by one.
 class ObjectCells {
   public:
     // Copies the boxes. At most 2^31.
     explicit ObjectCells(std::span<const Box> boxes);
 
     const UniformOctree& shape() const { return shape_; }
-    // A frustum in the tree's coordinates that no leaf is outside of if `frustum` leaves any of its boxes:
-    // half a leaf edge wider, and wider by what rounding may do.
+    // A frustum in the tree's coordinates, wider by half a leaf edge and by what rounding may do: a leaf with
+    // a box that is not outside of `frustum` is not outside of it.
     Frustum loosened(const Frustum& frustum) const;
 
-    // Boxes by leaf; ids are indices into what the constructor got.
+    // The boxes by leaf. Ids are indices into the constructor's boxes.
     CellBoxes cells() const { return {first_.data(), boxes_.data(), ids_.data()}; }
     std::size_t box_count() const { return ids_.size(); }
-    // Boxes of no cell are the last ones, from this one on.
+    // Boxes in no cell come last, from this index on.
     std::size_t first_of_no_cell() const { return first_.back(); }
 
   private:

@@ -7,14 +7,14 @@
 
 namespace swath {
 
-// Makes nodes depth first. Their places must not move, so all of them are reserved before.
+// Makes nodes depth first. Nodes must not move, so room for all is reserved before.
 struct ObjectOctree::Build {
     std::span<const MortonKey> placed;
     std::span<const WalkBox> boxes;
     int height;
     std::vector<BoxNode>& nodes;
 
-    // Of the entries `first` to `last`, which are those of one cell of `level`, at least one.
+    // Makes the node of the entries `first` to `last`, at least one, which are those of one cell on `level`.
     const BoxNode* node(std::uint32_t first, std::uint32_t last, int level) {
         BoxNode& made = nodes.emplace_back();
         Box around;

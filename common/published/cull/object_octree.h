@@ -9,20 +9,20 @@
 
 namespace swath {
 
-// The canonical culling of objects: what A2SSB calls ALGO5, with objects on the leaves. One thread, a
-// recursion over nodes linked by pointers; a node's box is as tight as its objects allow, nodes without
-// objects are absent, and no node is taken as wholly inside. Nodes lie in depth-first order and each leaf's
-// objects in a row. A baseline for benchmarks, so it does not sort what it finds.
+// The canonical culling of objects: A2SSB's ALGO5 with objects on the leaves, a recursion over nodes linked
+// by pointers on one thread. A node's box is as tight as its objects allow, nodes without objects are absent,
+// and no node is taken as wholly inside. Nodes lie in depth-first order and each leaf's objects are
+// contiguous. It is a baseline for benchmarks, so it does not sort what it finds.
 class ObjectOctree {
   public:
-    // Copies the boxes; at most 2^31. The tree is the lowest with at most `boxes_per_leaf` to a leaf that has
-    // any, on average.
+    // Copies the boxes, at most 2^31. The tree is the lowest with at most `boxes_per_leaf` to an occupied
+    // leaf, on average.
     explicit ObjectOctree(std::span<const Box> boxes, double boxes_per_leaf = 8);
     ObjectOctree(const ObjectOctree&) = delete;
     ObjectOctree& operator=(const ObjectOctree&) = delete;
 
-    // Indices of all boxes that are not outside the frustum, each once, in no particular order. Valid until
-    // the next call.
+    // The indices of all boxes that are not outside of the frustum, each once, in any order. Valid until the
+    // next call.
     std::span<const std::uint32_t> cull(const Frustum& frustum);
 
     int height() const { return height_; }
@@ -33,8 +33,8 @@ class ObjectOctree {
     CellBoxes contents_of_leaves() const { return {nullptr, boxes_.data(), ids_.data()}; }
 
     int height_ = 0;
-    std::vector<BoxNode> nodes_;  // the root is the first; none if there are no boxes in leaves
-    std::size_t in_leaves_ = 0;   // boxes beyond are not finite and have no leaf
+    std::vector<BoxNode> nodes_;  // the root is first; empty if no boxes are in leaves
+    std::size_t in_leaves_ = 0;   // boxes from here on are not finite and in no leaf
     std::vector<WalkBox> boxes_;
     std::vector<std::uint32_t> ids_;
     OwnedList<WalkList<std::uint32_t>> visible_;

@@ -54,8 +54,8 @@ class OctreeCuller final : public Culler {
         return visible_;
     }
 
-    // The papers say nothing of what moves: other cells, and what has been learned of the split level stays
-    // while the tree is as high.
+    // The papers say nothing of moving boxes. Here the cells are made anew, and what has been learned of the
+    // split level stays while the tree's height does.
     void refit(std::span<const Box> boxes) override {
         CHECK(boxes.size() == cells_.box_count());
         const int height = cells_.shape().height();
@@ -66,7 +66,7 @@ class OctreeCuller final : public Culler {
     std::optional<int> split_level() const override { return split_level_; }
 
   private:
-    // One for each member that works.
+    // The ids that one member has found.
     struct alignas(128) Found {
         OwnedList<WalkList<std::uint32_t>> ids;
     };

@@ -7,8 +7,8 @@
 
 namespace swath {
 
-// A published algorithm over the boxes' octree (object_cells.h). Each member of the team also tests the boxes
-// of the leaves that it finds, and a share of those that lie in no leaf.
+// Makes a culler of a published algorithm over the boxes' octree (object_cells.h). Each member of the team
+// also tests the boxes of the leaves that it finds and a share of those in no leaf.
 std::unique_ptr<Culler> make_octree_culler(PublishedAlgorithm algorithm, std::span<const Box> boxes,
                                            ThreadTeam& team);
 

@@ -6,9 +6,9 @@
 namespace swath::SWATH_KERNEL {
 namespace {
 
-constexpr std::uint32_t kCoordinate = 0x3ff;  // the bits of one in a packed cell
+constexpr std::uint32_t kCoordinate = 0x3ff;  // the bits of a coordinate in a packed cell
 
-// By child number: bit 0 is x, bit 1 is z, bit 2 is y.
+// In a child's number bit 0 is x, bit 1 is z and bit 2 is y.
 constexpr std::uint32_t child_x(std::uint32_t child) { return child & 1; }
 constexpr std::uint32_t child_y(std::uint32_t child) { return child >> 2 & 1; }
 constexpr std::uint32_t child_z(std::uint32_t child) { return child >> 1 & 1; }
@@ -16,7 +16,7 @@ constexpr std::uint32_t child_cell(std::uint32_t child) {
     return child_x(child) | child_y(child) << 10 | child_z(child) << 20;
 }
 
-// For the children of two nodes, in lanes 0 to 7 and 8 to 15.
+// The numbers and cells of the children of two nodes, in lanes 0 to 7 and 8 to 15.
 struct TwoFamilies {
     alignas(64) std::uint32_t codes[16];
     alignas(64) std::uint32_t cells[16];
@@ -32,10 +32,10 @@ constexpr TwoFamilies kTwoFamilies = [] {
 
 inline float edge_at(int height, int level) { return static_cast<float>(1u << (height - level)); }
 
-// Nodes in batches, so that their children stay in a first-level cache.
+// Nodes are tested in batches, so that their children stay in a first-level cache.
 constexpr std::uint32_t kBatch = 32;
 
-// The families of up to kBatch nodes, two by two: 16 children each.
+// The children of up to kBatch nodes, in pairs of families with 16 children.
 struct Batch {
     std::uint32_t pairs;
     std::uint32_t kept[kBatch / 2];  // the children that are not outside of any plane
@@ -51,7 +51,7 @@ inline Words codes_of(OctreeNodes nodes, std::uint32_t count, std::uint32_t i) {
                load(kTwoFamilies.codes));
 }
 
-// Tests all children, which lie at `level`.
+// Tests all children, which are on `level`.
 inline void test(OctreeWalk& walk, int level, OctreeNodes nodes, std::uint32_t count, Batch& batch) {
     walk.tested += 8 * std::uint64_t{count};
     batch.pairs = (count + 1) / 2;
@@ -61,7 +61,7 @@ inline void test(OctreeWalk& walk, int level, OctreeNodes nodes, std::uint32_t c
         const Floats x = to_floats(both(cells, all(kCoordinate)));
         const Floats y = to_floats(both(shift_right<10>(cells), all(kCoordinate)));
         const Floats z = to_floats(shift_right<20>(cells));
-        // All of this is exact.
+        // All sums and products are exact.
         float* const block = batch.blocks + 96 * pair;
         store(block, multiply(x, edge));
         store(block + 16, multiply(y, edge));
@@ -79,7 +79,7 @@ inline void test(OctreeWalk& walk, int level, OctreeNodes nodes, std::uint32_t c
     if (count % 2 != 0) batch.kept[batch.pairs - 1] &= 0xff;
 }
 
-// As packed(), and for the last family of an odd number no more than its own places.
+// Does what packed() does, but writes no more than the own places of a family without a second one.
 inline std::uint32_t* pack_pair(std::uint32_t* out, Words a, std::uint32_t kept, bool pair) {
     return pair ? packed(out, a, kept) : packed8(out, a, kept);
 }
@@ -102,7 +102,7 @@ std::uint32_t expand(OctreeWalk& walk, int level, OctreeNodes nodes, std::uint32
     return static_cast<std::uint32_t>(codes - children.codes);
 }
 
-// Of parents whose children are leaves: cells are not needed any more.
+// Expands parents of leaves, which need no cells any more.
 std::uint32_t* expand_to_leaves(OctreeWalk& walk, OctreeNodes nodes, std::uint32_t count,
                                 std::uint32_t* out) {
     Batch batch;
@@ -131,8 +131,8 @@ std::uint32_t* same_nodes(OctreeWalk& walk, int level, OctreeNodes nodes, std::u
     return out;
 }
 
-// Where the p-vertices (lanes 0 to 7) and the n-vertices (8 to 15) of a node's children are, from the node's
-// low corner, in children's edges: laid out as a block, so that a plane's p[] says which to take.
+// The p-vertices (lanes 0 to 7) and the n-vertices (8 to 15) of a node's children, from the node's low
+// corner, in children's edges. They have a block's layout, so that a plane's p[] says which to take.
 struct Family {
     alignas(64) float vertices[96];
 };
@@ -149,8 +149,8 @@ constexpr Family kFamily = [] {
     return made;
 }();
 
-// The low corners of the 64 leaves two levels below a node, in their order. Of 16 that follow each other the
-// bits of y and z that are 2 are the same, so that there are only these, plus 0 or 2 for all.
+// The low corners of the 64 leaves two levels below a node, in their order. 16 consecutive leaves have the
+// same second bits of y and z, so it is enough to store one such group, to whose y and z 0 or 2 is added.
 struct Brick {
     alignas(64) float x[16];
     alignas(64) float y[16];
@@ -174,7 +174,7 @@ inline Corner corner_of(std::uint32_t cell, float edge) {
             static_cast<float>(cell >> 10 & kCoordinate) * edge, static_cast<float>(cell >> 20) * edge};
 }
 
-// The 64 leaves below a node two levels above them.
+// Writes the leaves, of 64, below a node two levels above them.
 inline std::uint32_t* leaves_of_brick(const OctreeWalk& walk, std::uint32_t code, std::uint32_t cell,
                                       std::uint32_t planes, std::uint32_t* out) {
     const Corner low = corner_of(cell, 4);
@@ -232,7 +232,7 @@ std::uint32_t* early_out(OctreeWalk& walk, int level, std::uint32_t code, std::u
             kept &= kept - 1;
             continue;
         }
-        // As many as follow that are inside too.
+        // The number of consecutive children that are inside.
         const auto run = static_cast<std::uint32_t>(__builtin_ctz(~((kept & ~crossing) >> i)));
         const int shift = 3 * (below - 1);
         out = fill((8 * code + i) << shift, (8 * code + i + run) << shift, out);

@@ -39,26 +39,26 @@ struct MemberReport {
     std::span<const std::uint32_t> leaves;  // codes, in the order found
 };
 
-// One frame. Member k is the paper's P(k + 1); of the algorithms for one processor, there is one member.
+// One frame. Member k is the paper's P(k + 1). The algorithms for one processor have one member.
 struct WalkReport {
-    int split_level = 0;  // used in this frame; 0 of the algorithms for one processor
+    int split_level = 0;  // used in this frame; 0 for the algorithms for one processor
     Nanoseconds total_idle{0};
     std::vector<MemberReport> members;
 };
 
-// What a published algorithm keeps from frame to frame. The leaves found are those whose boxes are not
-// outside the frustum: the same set for every algorithm, team and split level. Owned and called by one
-// thread. The team and the tree must outlive it; the team must be idle when it is called.
+// A published algorithm, with what it keeps from frame to frame. It finds the leaves whose boxes are not
+// outside of the frustum: the same set with every algorithm, team and split level. Owned and called by one
+// thread. The team and the tree must outlive it, and the team must be idle when it is called.
 class PublishedWalk {
   public:
-    // What a member does with its leaves as the last part of its work: the papers' "render objects at node".
+    // A member's last work in a frame, with its leaves: the papers' "render objects at node".
     using LeafTask = std::function<void(std::size_t member, std::span<const std::uint32_t> leaves)>;
 
     virtual ~PublishedWalk() = default;
-    // The frustum in the tree's coordinates, that is in leaf edges. The report is valid until the next call.
+    // `frustum` is in the tree's coordinates, in leaf edges. The report is valid until the next call.
     virtual const WalkReport& walk(const Frustum& frustum) = 0;
-    // Instead of the level that adapts itself. Levels that the tree or the team does not allow become the
-    // nearest that they do. No effect on the algorithms for one processor.
+    // Sets a level in place of the one that adapts. A level that the tree or the team does not allow becomes
+    // the nearest that they do. Has no effect on the algorithms for one processor.
     void force_split_level(std::optional<int> level) { forced_level_ = level; }
     void set_leaf_task(LeafTask task) { leaf_task_ = std::move(task); }
 
@@ -67,10 +67,10 @@ class PublishedWalk {
     LeafTask leaf_task_;
 };
 
-// Over stored nodes, as published. Of ALGO1, step one reads nodes and step two does not.
+// Walks stored nodes, as published. In ALGO1, step one reads nodes and step two does not.
 std::unique_ptr<PublishedWalk> make_published_walk(PublishedAlgorithm algorithm, const PointerOctree& tree,
                                                    ThreadTeam& team);
-// Over nodes that are computed instead of stored.
+// Walks nodes that are computed instead of stored.
 std::unique_ptr<PublishedWalk> make_published_walk(PublishedAlgorithm algorithm, const UniformOctree& tree,
                                                    ThreadTeam& team);
 

@@ -6,7 +6,7 @@
 
 namespace swath {
 
-// When one member of a team worked.
+// The time in which one member of a team worked.
 struct WorkSpan {
     Nanoseconds start{0};
     Nanoseconds end{0};
@@ -19,8 +19,8 @@ Nanoseconds total_idle_time(std::span<const WorkSpan> members);
 // The smallest r with 8^r >= processors (A2SSB, equation 1). At least 1 processor.
 int start_level(std::size_t processors);
 
-// ADSB's controller, figure 4: moves the split level every frame, and turns round when the total idle time
-// has grown. As printed; it never settles.
+// ADSB's controller, as figure 4 prints it: it moves the split level every frame and turns round when the
+// total idle time has grown, so it never settles.
 class AdsbSplitLevel {
   public:
     explicit AdsbSplitLevel(int last_level) : last_level_(last_level) {}
@@ -34,10 +34,11 @@ class AdsbSplitLevel {
     Nanoseconds last_idle_time_{0};
 };
 
-// A2SSB's, algorithm 3, never above the start level. Mended in two places. LastIdleTime, of which nothing is
-// said, starts at infinity: with 0 the first frame would turn it round for good, against the text. And
-// turning round moves, as the text says and the listing does not: a level that stays is only compared with
-// itself.
+// A2SSB's controller, algorithm 3, which never goes above the start level. It is mended in two places:
+// - LastIdleTime, whose start is not given, starts at infinity: with 0 the first frame would turn it round
+//   for good, against the text.
+// - Turning round moves the level, as the text says and the listing does not: a level that stays would only
+//   be compared with itself.
 class A2ssbSplitLevel {
   public:
     A2ssbSplitLevel(int first_level, int last_level)

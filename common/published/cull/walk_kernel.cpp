@@ -1,5 +1,5 @@
-// The loops of the published algorithms, once per instruction set: see swath_kernel in
-// cmake/compile_options.cmake for what may be included here.
+// The loops of the published algorithms, compiled once per instruction set. swath_kernel in
+// cmake/compile_options.cmake says what may be included here.
 #include "common/published/cull/walk_table.h"
 
 #if defined(SWATH_KERNEL_avx2)
@@ -14,7 +14,7 @@ struct Corners {
     float high[3];
 };
 
-// Bit for bit outside() of common/geometry/frustum.h: the one plane expression.
+// The same bit for bit as outside() of common/geometry/frustum.h.
 inline bool is_outside(const WalkPlanes& planes, const Corners& box) {
 #pragma GCC unroll 6  // each plane's branches on its signs go the same way all frame long
     for (const WalkPlane& p : planes.plane) {
@@ -40,7 +40,7 @@ inline const ComputedNode& node_at(const ComputedNode& node) { return node; }
 
 inline StoredNode child_of(StoredNode node, std::uint32_t child) { return node->children[child]; }
 
-// Exact: coordinates are whole numbers below 2^11 (uniform_octree.h).
+// It is exact, because coordinates are whole numbers below 2^11 (uniform_octree.h).
 inline ComputedNode child_of(const ComputedNode& node, std::uint32_t child) {
     const float edge = 0.5f * (node.box[3] - node.box[0]);
     const float x = node.box[0] + ((child & 1) != 0 ? edge : 0.0f);
@@ -124,7 +124,7 @@ void in_place(MemberWalk& walk, const Node* nodes, std::size_t count) {
 }
 
 #if defined(SWATH_KERNEL_avx2)
-// The six planes, a lane each. The two lanes left never have anything outside.
+// The six planes, one in each lane. Nothing is ever outside of the two lanes that are left.
 struct LanePlanes {
     __m256 x, y, z, w;
     __m256 low_x, low_y, low_z;  // set where the p-vertex is the low corner
@@ -155,8 +155,8 @@ struct LanePlanes {
     }
 };
 
-// The box that moves, as the p-vertices of all planes. Only along an axis where a plane asks for the corner
-// that a move changes does its lane change. Exact, as the box is.
+// The box that moves, as the p-vertices of all planes. A move changes a lane only along axes on which its
+// plane uses the corner that moves. It is exact, as the box is.
 struct LaneBox {
     __m256 x, y, z;
     __m256 edge;
@@ -191,7 +191,7 @@ struct LaneBox {
     }
 };
 
-// As in_place_from().
+// Does what in_place_from() does.
 void in_lanes_from(MemberWalk& walk, const LanePlanes& planes, LaneBox box, std::uint32_t code,
                    std::uint32_t level) {
     constexpr signed char kNobodysChild = -1;

@@ -37,8 +37,8 @@ struct WalkList {
 template <class T>
 void grow(WalkList<T>& list);
 
-// First in, first out, in a ring: entries `head` to `tail`, counted from the beginning of time, modulo the
-// capacity, which is a power of two or 0.
+// A queue in a ring: entries `head` to `tail`, which only grow, are at their number modulo the capacity,
+// which is a power of two or 0.
 template <class T>
 struct WalkQueue {
     T* at;
@@ -54,20 +54,20 @@ void grow(WalkQueue<T>& queue);
 struct MemberWalk {
     const WalkPlanes* planes;
     std::uint32_t last_level;
-    WalkList<std::uint32_t> leaves;  // codes of those that the frustum intersects
+    WalkList<std::uint32_t> leaves;  // codes of leaves that the frustum intersects
     std::uint64_t tested;            // boxes
 };
 
 // The walks over one kind of node.
 template <class Node>
 struct NodeWalks {
-    // A2SSB, algorithm 1, for each of `nodes`: a recursion that leaves the children of intersected nodes at
-    // `split_level` in `below`.
+    // A2SSB, algorithm 1, for each of `nodes`: a recursion that appends the children of intersected nodes on
+    // `split_level` to `below`.
     void (*step_one)(MemberWalk& walk, const Node* nodes, std::size_t count, std::uint32_t split_level,
                      WalkList<Node>& below);
     // A2SSB, algorithm 2, for each of `nodes`: one box is moved through the tree, no node is read.
     void (*in_place)(MemberWalk& walk, const Node* nodes, std::size_t count);
-    // The same with all planes tested at once, where there are vector registers.
+    // Does the same with all planes tested at once, where there are vector registers.
     void (*in_lanes)(MemberWalk& walk, const Node* nodes, std::size_t count);
     // The canonical recursion, for each of `nodes`.
     void (*depth_first)(MemberWalk& walk, const Node* nodes, std::size_t count);
@@ -86,26 +86,26 @@ struct CellBoxes {
     const std::uint32_t* ids;
 };
 
-// A node of an octree over boxes, around them as tightly as may be. Leaves have boxes, others have children.
+// A node of an octree over boxes, whose box is as tight as possible. Leaves have boxes, other nodes children.
 struct BoxNode {
     float box[6];
     std::uint32_t first;
-    std::uint32_t count;         // 0 unless a leaf
+    std::uint32_t count;         // 0 if it is no leaf
     const BoxNode* children[8];  // the first ones; null where a cell is empty
 };
 
-// All that is compiled per instruction set. Every one gives the same bits as outside() of
+// All that is compiled per instruction set. All of it gives the same bits as outside() of
 // common/geometry/frustum.h.
 struct WalkTable {
     NodeWalks<StoredNode> stored;
     NodeWalks<ComputedNode> computed;
-    // Appends the ids of boxes that are not outside, of the cells given.
+    // Appends the ids of boxes in the given cells that are not outside.
     void (*cull_cells)(const WalkPlanes& planes, const CellBoxes& of, const std::uint32_t* cells,
                        std::size_t count, WalkList<std::uint32_t>& ids);
-    // Of boxes `first` to `last`.
+    // Does the same for boxes `first` to `last`.
     void (*cull_boxes)(const WalkPlanes& planes, const CellBoxes& of, std::size_t first, std::size_t last,
                        WalkList<std::uint32_t>& ids);
-    // The canonical recursion with objects.
+    // Does the same by the canonical recursion.
     void (*cull_tree)(const WalkPlanes& planes, const CellBoxes& of, const BoxNode& root,
                       WalkList<std::uint32_t>& ids);
 };

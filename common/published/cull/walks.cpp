@@ -32,7 +32,7 @@ void grow(WalkQueue<T>& queue) {
     queue.at = resized(queue.at, capacity);
     queue.capacity = capacity;
     if (before == 0) return;
-    // Entries whose number modulo the capacity has changed move up.
+    // Entries move up whose number modulo the capacity has changed.
     for (std::size_t i = queue.head; i != queue.tail; ++i)
         if ((i & before) != 0) queue.at[i & (capacity - 1)] = queue.at[i & (before - 1)];
 }

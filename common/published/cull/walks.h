@@ -6,7 +6,7 @@
 
 namespace swath {
 
-// The walks for a processor; AVX-512 adds nothing to them. The set must be one of instruction_sets().
+// The walks for an instruction set, which must be one of instruction_sets(). AVX-512 adds nothing to them.
 const WalkTable& walk_table(InstructionSet set);
 inline const WalkTable& best_walk_table() { return walk_table(best_instruction_set()); }
 

@@ -8,7 +8,7 @@
 namespace swath {
 namespace {
 
-// What testing a node and writing a leaf take, about, in nanoseconds: to tell large frames from small ones.
+// About what testing a node and writing a leaf take, to tell large frames from small ones.
 constexpr double kNodeNs = 0.4;
 constexpr double kLeafNs = 0.05;
 
@@ -75,7 +75,7 @@ std::span<const std::uint32_t> WideOctree::cull_shared(OctreeWalk walk, Visit vi
     codes_[0].assign(1, 0);
     cells_[0].assign(1, 0);
     int level = 0;
-    // Two levels stay for the members, so that they do most of it.
+    // Two levels are left to the members, so that they do most of the work.
     while (level < shape_.height() - 2 && codes_[0].size() < kNodesAMember * members) {
         for (auto* const list : {&codes_[1], &cells_[1]}) list->resize(8 * codes_[0].size());
         const std::uint32_t count = kernels_.expand(walk, level, {codes_[0].data(), cells_[0].data()},

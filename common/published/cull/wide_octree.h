@@ -14,12 +14,12 @@
 namespace swath {
 
 // Finds the leaves of a uniform octree that a frustum does not miss, 16 nodes at once and without a stored
-// tree: what the published algorithms (ADSB, A2SSB) have to be compared with. The answers of both calls are
-// the codes of the leaves that are not outside(frustum, shape.box_of(height, code)), ascending, bit for bit.
-// Frusta are in the octree's coordinates: a leaf's edge is 1.
+// tree, to be compared with the published algorithms (ADSB, A2SSB). Both calls give exactly the codes of the
+// leaves that are not outside(frustum, shape.box_of(height, code)), ascending. Frusta are in the octree's
+// coordinates, where a leaf's edge is 1.
 //
-// One thread at a time. The team must outlive it and be idle when it is called; it takes part where that
-// pays (see sharing.h). Places for all codes are reserved, only those written cost memory.
+// One thread at a time. The team must outlive it and be idle when it is called; it takes part if that pays
+// (see sharing.h). It reserves places for all codes, of which only those written cost memory.
 class WideOctree {
   public:
     WideOctree(const UniformOctree& shape, ThreadTeam& team,
@@ -29,10 +29,10 @@ class WideOctree {
     // Tests the very nodes that ALGO5 tests, the canonical walk of A2SSB (section 3.6): the root, and all
     // children of each inner node that is not outside, against all six planes. Valid until the next call.
     std::span<const std::uint32_t> cull_same_nodes(const Frustum& frustum);
-    // Leaves out planes that a node is inside of, below it, and the tests below a node inside of all.
+    // Tests nothing below a node against planes that the node is inside of.
     std::span<const std::uint32_t> cull(const Frustum& frustum);
 
-    // By the last call. After cull_same_nodes() it is what ALGO5 tests.
+    // The nodes that the last call tested. After cull_same_nodes() it is what ALGO5 tests.
     std::uint64_t tested_nodes() const { return tested_; }
 
   private:
@@ -44,12 +44,12 @@ class WideOctree {
     ThreadTeam& team_;
     const OctreeKernels& kernels_;
     IdSlots ids_;
-    std::vector<std::uint32_t> codes_[2];  // of the nodes shared out, and of those one level above
+    std::vector<std::uint32_t> codes_[2];  // of the nodes that are shared, and of those one level above
     std::vector<std::uint32_t> cells_[2];
     std::vector<std::size_t> begins_;
     std::vector<std::uint64_t> tests_;
     std::uint64_t tested_ = 0;
-    // Of either way to visit: how to share it, and what the last frame would have taken one thread.
+    // For each Visit: how to share it, and what one thread would have taken for the last frame.
     Sharing sharing_[2];
     double expected_ns_[2] = {};
 };

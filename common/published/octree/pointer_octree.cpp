@@ -8,7 +8,7 @@
 namespace swath {
 namespace {
 
-// Hands out places of the array in the order wished for.
+// Hands out indices of the array in the wished order.
 class Places {
   public:
     Places(const UniformOctree& shape, AllocationOrder order, std::uint64_t seed) : order_(order) {
@@ -20,7 +20,7 @@ class Places {
             std::swap(shuffled_[i - 1], shuffled_[random() % i]);
     }
 
-    // To be called in depth-first order.
+    // Call it in depth-first order.
     std::size_t next(int level, std::uint32_t code) {
         switch (order_) {
             case AllocationOrder::kDepthFirst:

@@ -7,21 +7,21 @@
 
 namespace swath {
 
-// Where in memory a stored octree's nodes lie. What the A2SSB chapter says of caches (section 3.8) depends on
-// it: walks in the order of the nodes are fast, walks over scattered ones are not.
+// The order of a stored octree's nodes in memory. The A2SSB chapter's results on caches (section 3.8) depend
+// on it: walks in the order of the nodes are fast, walks over scattered nodes are not.
 enum class AllocationOrder {
     kDepthFirst,    // as a recursive builder allocates them
     kBreadthFirst,  // level by level
     kRandom,        // as after many insertions and removals
 };
 
-// The uniform octree with every node stored and linked by pointers: what the canonical algorithms walk. Takes
-// 96 bytes a node (8 levels: 230 MB; 9: 1.84 GB). Immutable, so any number of threads may read it.
+// The uniform octree with every node stored and linked by pointers, which the canonical algorithms walk. It
+// takes 96 bytes a node (8 levels: 230 MB; 9: 1.84 GB). Immutable, so any number of threads may read it.
 class PointerOctree {
   public:
     static constexpr int kMaxHeight = 8;
 
-    // `seed` is for kRandom alone.
+    // Only kRandom uses `seed`.
     PointerOctree(const UniformOctree& shape, AllocationOrder order, std::uint64_t seed = 1);
     // Nodes point at each other.
     PointerOctree(const PointerOctree&) = delete;

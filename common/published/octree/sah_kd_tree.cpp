@@ -9,7 +9,7 @@
 namespace swath {
 namespace {
 
-// Where a box begins or ends along an axis, or (planar) does both. At one place what ends comes first.
+// A box's begin or end along an axis, or (planar) both at once. At the same position ends come first.
 enum EventKind : std::uint32_t { kEnds = 0, kPlanar = 1, kStarts = 2 };
 struct Event {
     float at;
@@ -32,7 +32,7 @@ enum class Side : std::uint8_t { kBoth, kBelow, kAbove };
 struct Plane {
     int axis = -1;
     float at = 0;
-    bool planar_below = true;  // where boxes that lie in the plane go
+    bool planar_below = true;  // whether boxes that lie in the plane go below
     double cost = 0;
 };
 
@@ -137,7 +137,7 @@ class KdBuild {
         full_ = full_ || tree_.nodes.size() + 2 > kMaxSahNodes || references_.size() + count > (1u << 30);
         if (plane.axis < 0 || full_) return leaf(at, events);
         const auto axis = static_cast<std::size_t>(plane.axis);
-        // Which side each one is on: both, until an event says otherwise.
+        // Each reference is on both sides until an event says otherwise.
         sides_.resize(references_.size());
         for (const Event& event : events[axis]) sides_[event.reference()] = Side::kBoth;
         for (const Event& event : events[axis]) {
@@ -148,7 +148,7 @@ class KdBuild {
                 side = event.at < plane.at || (event.at == plane.at && plane.planar_below) ? Side::kBelow
                                                                                            : Side::kAbove;
         }
-        // Those on both sides are cut in two.
+        // References on both sides are cut in two.
         cut_.clear();
         std::uint32_t below = 0;
         std::uint32_t above = 0;
@@ -184,7 +184,8 @@ class KdBuild {
         node(child + 1, box_above, above, std::move(events_above), depth + 1);
     }
 
-    // What is on one side keeps its order; new events of what is cut are sorted and merged in.
+    // Events of references on one side keep their order. New events of those that are cut are sorted and
+    // merged in.
     void split_events(int axis, const std::vector<Event>& events, std::vector<Event>& below,
                       std::vector<Event>& above) {
         kept_below_.clear();
@@ -225,7 +226,7 @@ class KdBuild {
 }  // namespace
 
 Result<SahTree> build_sah_kd_tree(const SahTriangles& triangles, const SahSettings& settings) {
-    if (const auto status = check_sah(triangles, settings); !status) return tl::unexpected(status.error());
+    SWATH_TRY_VOID(check_sah(triangles, settings));
     return KdBuild(settings).build(triangles);
 }
 

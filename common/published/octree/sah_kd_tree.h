@@ -6,10 +6,10 @@
 
 namespace swath {
 
-// The conventional, serial builder that the SAH octree is measured against: a kd-tree whose planes are the
-// best of all sides of all boxes, in O(n log n) by events that are sorted once (Wald and Havran 2006, without
-// clipping triangles). Uses the costs of the settings and no others: there are no bins, and duplication is
-// not bounded. Fails like SahBuilder::build.
+// The conventional, serial builder that the SAH octree is measured against. It makes a kd-tree whose planes
+// are the best of all sides of all boxes, in O(n log n) by events that are sorted once (Wald and Havran 2006,
+// without clipping triangles). It uses only the costs of `settings`: it has no bins, and does not bound
+// duplication. Fails like SahBuilder::build.
 Result<SahTree> build_sah_kd_tree(const SahTriangles& triangles, const SahSettings& settings);
 
 }  // namespace swath

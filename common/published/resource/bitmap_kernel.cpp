@@ -12,7 +12,7 @@ std::uint32_t* expand_word(std::uint64_t word, const std::uint32_t* values, std:
     return out;
 }
 
-// The same for a word that has at least 64 places to write to, of which it may spoil what it does not need.
+// The same for a word with at least 64 places left, of which it may spoil those that it does not need.
 #if defined(SWATH_KERNEL_avx512)
 std::uint32_t* expand_roomy_word(std::uint64_t word, const std::uint32_t* values, std::uint32_t* out) {
     for (int i = 0; i < 64; i += 16) {

@@ -4,17 +4,15 @@
 
 namespace swath {
 
-// What RankBitmap does with words of 64 marks. A kernel: see swath_kernel in cmake/compile_options.cmake.
+// RankBitmap's kernels over words of 64 marks (swath_kernel in cmake/compile_options.cmake):
 //
-// merge_bits: adds to `into` the marks of `from` and clears `from`, of `count` words each.
+//   merge_bits   adds the marks of `from` to `into` and clears `from`, `count` words each
+//   invert_bits  inverts all bits
+//   count_bits   counts the bits that are set
+//   expand_bits  writes values[i] for every bit i that is set, ascending, and clears the words
 //
-// invert_bits: sets what is clear and clears what is set.
-//
-// count_bits: how many bits are set.
-//
-// expand_bits: writes values[i] for every bit i that is set, ascending, and clears the words. `room` is
-// count_bits() of the words: no more is written. Of a word with fewer than 64 places left to write to, only
-// values whose bits are set are read, so `values` may end within the last word.
+// `room` is count_bits() of the words, and expand_bits writes no more. If fewer than 64 places are left, it
+// reads only values whose bits are set, so `values` may end within the last word.
 #define SWATH_BITMAP_KERNEL(set)                                                           \
     namespace set {                                                                        \
     void merge_bits(std::uint64_t* into, std::uint64_t* from, std::size_t count);          \

@@ -10,19 +10,17 @@
 namespace swath {
 
 // Counting sort with one counter for each point of the resource space (ADSB, section 8.1; A2SSB, section 3.10
-// a): the papers' choice, without their lists. Good while the points are few enough for the nearest caches
-// and the objects many enough to pay for clearing and adding up a counter for each point.
+// a): the papers' choice, without their lists. It is good if the points are few enough for the nearest caches
+// and the objects many enough to pay for clearing and adding up all counters.
 //
-// Like RadixSort, RankBitmap and LiteralSort: made with the objects' keys, which are read, not copied, and
-// must outlive it, as the team must. One thread at a time.
+// It reads the objects' keys where they are: they must outlive it, as the team must. One thread at a time.
 class CountingSort {
   public:
-    // Every key is below `points`. Keeps 4 bytes for each point, from the first call, and as much for every
-    // member that takes part.
+    // Every key must be below `points`. Keeps 4 bytes for each point and member that takes part.
     CountingSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team,
                  SharingMode mode = SharingMode::kWhenItPays);
 
-    // `visible`: ids below keys.size(), ascending. The same ids by (key, id), valid until the next call.
+    // Sorts `visible`, ascending ids below keys.size(), by (key, id). Valid until the next call.
     std::span<const std::uint32_t> sort(std::span<const std::uint32_t> visible);
 
   private:

@@ -14,13 +14,12 @@
 
 namespace swath {
 
-// What a frame draws, in the order of what it is drawn with: ADSB's RenderNodes together with its
-// sections 8.2 and 8.3. Two ways give the same answer. A hierarchy of boxes finds few visible objects fast,
-// but not in order; testing every box costs the same however many are visible, but the boxes can lie in the
-// order of their keys, and then nothing is left to sort. Which is cheaper depends on how much is visible;
-// neighbouring frames see about the same, so each frame goes by the one before.
+// Finds what a frame draws, in the order of resources: ADSB's RenderNodes together with its sections 8.2 and
+// 8.3. Two ways give the same answer. A hierarchy of boxes finds few visible objects fast, but not in order.
+// Testing every box always costs the same, but the boxes can lie in the order of their keys, and then nothing
+// is left to sort. The cheaper way depends on how much is visible, so each frame goes by the one before.
 //
-// One thread at a time; the team must outlive it and be idle when it is called.
+// One thread at a time. The team must outlive it and be idle when it is called.
 class CullAndSort {
   public:
     enum class Way {
@@ -28,18 +27,18 @@ class CullAndSort {
         kScan,       // every box, in the order of the keys
     };
 
-    // boxes[id] and keys[id] of each object; copies what it needs. Neighbouring ids should be near each other
-    // in space, as for WideCuller.
+    // Object `id` has boxes[id] and keys[id]. Copies what it needs. Neighbouring ids should be near each
+    // other in space, as for WideCuller.
     CullAndSort(std::span<const Box> boxes, std::span<const std::uint32_t> keys, ThreadTeam& team);
 
     // The ids of all boxes that are not outside(frustum, box), by (key, id). Valid until the next call.
     std::span<const std::uint32_t> cull(const Frustum& frustum);
-    // The same, by a given way.
+    // Does the same in a given way.
     std::span<const std::uint32_t> cull(const Frustum& frustum, Way way);
 
-    // What the next cull(frustum) does. kHierarchy before the first.
+    // The way of the next cull(frustum): kHierarchy before the first.
     Way next_way() const;
-    // What the last one did.
+    // The way of the last one.
     Way way() const { return way_; }
     const ResourceSorter& sorter() const { return sorter_; }
 
@@ -49,7 +48,7 @@ class CullAndSort {
     ThreadTeam& team_;
     ResourceSorter sorter_;
     WideCuller hierarchy_;
-    // The boxes by rank; none where ids are ranks.
+    // The boxes by rank. Null if ids are ranks.
     struct Scan {
         Scan(std::span<const Box> by_rank, ThreadTeam& team) : boxes(by_rank), scan(boxes, team) {}
         BoxBlocks boxes;

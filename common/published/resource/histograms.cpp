@@ -5,7 +5,7 @@
 namespace swath {
 namespace {
 
-// Counters that a member should at least have to itself when positions are made together.
+// The fewest counters that are worth a member when positions are made.
 constexpr std::size_t kCountersPerPart = 1 << 15;
 
 }  // namespace

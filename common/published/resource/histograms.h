@@ -9,9 +9,9 @@
 namespace swath {
 
 // One row of counters for each part of the input: the counting arrays of counting sort (ADSB, section 8.1),
-// one for each processor. Merging them, cell by cell in the order of the parts, is what the papers' array M
-// is to their R; here it yields where each part may put the first thing of each cell, so that all parts can
-// write at once and the result is stable.
+// one for each processor. Adding them up, cell by cell in the order of parts, stands for the papers' merge of
+// R into M. It gives the place of each part's first thing of each cell, so that all parts can write at once
+// and the result is stable.
 class Histograms {
   public:
     // Rows are not cleared: each part clears its own.

@@ -7,9 +7,9 @@
 
 namespace swath {
 
-// Where each object stands when all are sorted by (key, id): what can be known beforehand of keys that do not
-// change. An object's rank is its number in that order, so sorting visible objects is finding their ranks in
-// ascending order (RankBitmap), and whoever numbers his objects by rank need not sort at all. Immutable.
+// The order of all objects by (key, id), which is known beforehand if keys do not change. An object's rank is
+// its index in that order, so sorting visible objects is finding their ranks in ascending order (RankBitmap),
+// and objects that are numbered by rank need no sorting. Immutable.
 class KeyOrder {
   public:
     KeyOrder(std::span<const std::uint32_t> keys, ThreadTeam& team);
@@ -18,11 +18,11 @@ class KeyOrder {
     // The id at each rank, and the rank of each id.
     std::span<const std::uint32_t> ids() const { return ids_; }
     std::span<const std::uint32_t> ranks() const { return ranks_; }
-    // Ids are ranks: what is ascending is sorted.
+    // True if every id is its rank, so that ascending ids are sorted.
     bool ids_are_ranks() const { return ids_are_ranks_; }
 
-    // The points of the resource space that have any objects, numbered by ascending key; and of each id, its
-    // point's number. They order objects as the keys do, in a space as small as can be.
+    // The number of points of the resource space that have objects, and the number of each id's point,
+    // ascending by key. They order objects as keys do, in the smallest space.
     std::uint32_t points() const { return points_; }
     std::span<const std::uint32_t> point_of() const { return point_of_; }
 

@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kIdsPerPart = 1 << 14;
 constexpr double kIdNs = 2;  // about
 
-// What is moved from pass to pass: what is left of the key above the id. The loops below take what they need
-// by value: through references the compiler would read it again after each counter that it writes.
+// An entry moves from pass to pass: the rest of the key, above the id. The loops take arguments by value: the
+// compiler would read references again after each counter that it writes.
 std::uint64_t pack(std::uint32_t key, std::uint32_t id) { return std::uint64_t{key} << 32 | id; }
 std::uint32_t id_of(std::uint64_t entry) { return static_cast<std::uint32_t>(entry); }
 std::uint32_t key_of(std::uint64_t entry) { return static_cast<std::uint32_t>(entry >> 32); }
@@ -87,7 +87,7 @@ std::span<const std::uint32_t> RadixSort::sort(std::span<const std::uint32_t> vi
     std::uint64_t* to = digits_.count > 1 ? packed_[1].room(size) : nullptr;
     std::uint32_t* const sorted = sorted_.room(size);
 
-    // A single part counts all digits while it is at it. Of several, what is in each changes with every pass.
+    // A single part counts all digits in one pass. With several parts, each pass changes what is in them.
     const std::size_t counted = parts == 1 ? digits_.count : 1;
     run_parts(team_, parts, [&](std::size_t part) {
         std::array<std::uint32_t*, RadixDigits::kMax> counts{};

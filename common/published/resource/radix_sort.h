@@ -11,10 +11,11 @@
 
 namespace swath {
 
-// The digits of keys below `points`, least significant first: as few as kMaxBits allow, as equal as they come
-// (131,072 keys: 9 and 8 bits). One key needs no digit.
+// The digits of keys below `points`, least significant first: as few as kMaxBits allows, of sizes as equal as
+// possible (131,072 keys: 9 and 8 bits). One key needs no digit.
 struct RadixDigits {
-    static constexpr int kMaxBits = 11;  // 2048 counters, and as many places written to: about what L1 takes
+    static constexpr int kMaxBits =
+        11;  // 2048 counters and as many places to write to are about what L1 takes
     static constexpr std::size_t kMax = 3;
     std::array<int, kMax> bits{};
     std::size_t count = 0;
@@ -23,21 +24,19 @@ struct RadixDigits {
 };
 RadixDigits radix_digits(std::uint64_t points);
 
-// Radix sort, least significant digit first: one stable counting sort a digit. Its cost does not know the
-// number of points but through the number of digits, so it is the one for few visible objects in a large
-// space, and the one that stays fast when the counters of all points no longer fit a cache. Between passes
-// an object is its key and id in 64 bits.
+// Radix sort, least significant digit first, with one stable counting sort a digit. The number of points only
+// decides the number of digits, so it is good for few visible objects in a large space, and stays fast when
+// the counters of all points do not fit a cache. Between passes an object is its key and id in 64 bits.
 //
-// Made with the objects' keys, which are read, not copied, and must outlive it, as the team must. One thread
-// at a time.
+// It reads the objects' keys where they are: they must outlive it, as the team must. One thread at a time.
 class RadixSort {
   public:
-    // Every key is below `points`, at most 2^32.
+    // Every key must be below `points`, which is at most 2^32.
     RadixSort(std::span<const std::uint32_t> keys, std::uint64_t points, ThreadTeam& team,
               SharingMode mode = SharingMode::kWhenItPays);
 
-    // `visible`: ids below keys.size(), ascending. The same ids by (key, id), valid until the next call (and
-    // as long as `visible`, which is the answer where there is one key).
+    // Sorts `visible`, ascending ids below keys.size(), by (key, id). Valid until the next call and as long
+    // as `visible`, which is the answer if there is one key.
     std::span<const std::uint32_t> sort(std::span<const std::uint32_t> visible);
 
   private:

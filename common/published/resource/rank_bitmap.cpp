@@ -39,7 +39,7 @@ void RankBitmap::mark(std::span<const std::uint32_t> ids, std::uint64_t* bitmap)
     }
 }
 
-// Marks the ranks of what lies between begin and end and is not in ids.
+// Marks the ranks of the ids from `begin` to `end` that are not in `ids`.
 void RankBitmap::mark_gaps(std::span<const std::uint32_t> ids, std::uint32_t begin, std::uint32_t end,
                            std::uint64_t* bitmap) const {
     const std::uint32_t* const ranks = order_.ranks().data();

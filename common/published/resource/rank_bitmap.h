@@ -11,10 +11,10 @@
 
 namespace swath {
 
-// Sorts by marking each visible object's rank in a bitmap and reading the marks in order: the counting sort
-// of a space in which every object is a point of its own, with counters of one bit. Each member of the team
-// marks its share in a bitmap of its own; then they merge them, each a range of ranks, as the papers merge R
-// into M. Costs a look at every object's bit, so it is for frames that see more than a few per cent. Of
+// Sorts by marking each visible object's rank in a bitmap and reading the marks in order. This is counting
+// sort with counters of one bit in a space in which every object is a point of its own. Each member of the
+// team marks its share in a bitmap of its own, then merges all bitmaps in a range of ranks, as the papers
+// merge R into M. It reads every object's bit, so it is for frames that see more than a few per cent. In
 // frames that see more than half it marks what they do not see.
 //
 // `order` and `team` must outlive it. One thread at a time.
@@ -23,8 +23,7 @@ class RankBitmap {
     explicit RankBitmap(const KeyOrder& order, ThreadTeam& team, InstructionSet set = best_instruction_set(),
                         SharingMode mode = SharingMode::kWhenItPays);
 
-    // `visible`: ids below order.size(), ascending, each once. The same ids by (key, id), valid until the
-    // next call.
+    // Sorts `visible`, ascending ids below order.size(), each once, by (key, id). Valid until the next call.
     std::span<const std::uint32_t> sort(std::span<const std::uint32_t> visible);
 
   private:

@@ -52,10 +52,9 @@ void merge(std::span<ResourceArray> arrays, ThreadTeam& team, ResourceArray& mer
 
 Result<LiteralSort> LiteralSort::make(std::span<const std::uint32_t> keys, std::uint64_t points,
                                       ThreadTeam& team) {
-    Result<ResourceArray> empty = ResourceArray::make(points);
-    if (!empty) return tl::unexpected(empty.error());
+    SWATH_TRY(ResourceArray empty, ResourceArray::make(points));
     if (!keys.empty()) CHECK(std::uint64_t{*std::ranges::max_element(keys)} < points);
-    return LiteralSort(keys, std::move(*empty), team);
+    return LiteralSort(keys, std::move(empty), team);
 }
 
 LiteralSort::LiteralSort(std::span<const std::uint32_t> keys, ResourceArray empty, ThreadTeam& team)

@@ -12,7 +12,7 @@
 
 namespace swath {
 
-// How visible objects were brought into the order of their resources.
+// The way in which visible objects were sorted.
 enum class SortMethod {
     kNone,        // they were in order: ids are ranks, or all are visible
     kRankBitmap,  // see RankBitmap
@@ -21,22 +21,22 @@ enum class SortMethod {
 };
 std::string_view name_of(SortMethod method);  // "none", "bitmap", "counting", "radix"
 
-// Sorts the visible ones of a fixed set of objects by what they are drawn with, each frame by the method that
-// is cheapest for as many as there are. The answer does not depend on it. One thread at a time; the team must
-// outlive it and be idle when it is called.
+// Sorts the visible objects of a fixed set by their resources, each frame by the method that is cheapest for
+// their number. The answer does not depend on it. One thread at a time. The team must outlive it and be idle
+// when it is called.
 class ResourceSorter {
   public:
-    // keys[id]: the object's key in its ResourceSpace.
+    // keys[id] is the object's key in its ResourceSpace.
     ResourceSorter(std::span<const std::uint32_t> keys, ThreadTeam& team,
                    InstructionSet set = best_instruction_set());
     ResourceSorter(const ResourceSorter&) = delete;
     ResourceSorter& operator=(const ResourceSorter&) = delete;
 
-    // `visible`: ids of objects, ascending, each once. The same by (key, id): valid until the next call and
-    // as long as `visible`.
+    // Sorts `visible`, ascending ids, each once, by (key, id). Valid until the next call and as long as
+    // `visible`.
     std::span<const std::uint32_t> sort(std::span<const std::uint32_t> visible);
 
-    // What sort() does with so many visible objects, and what it did last.
+    // The method for so many visible objects, and the one that sort() used last.
     SortMethod method_for(std::size_t visible) const;
     SortMethod method() const { return method_; }
 

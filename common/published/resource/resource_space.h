@@ -7,13 +7,13 @@
 
 namespace swath {
 
-// What objects are drawn with, as a point: one dimension for each kind of resource (shader, texture, mesh,
-// ...), one coordinate for each of its resources (ADSB, section 8.2; A2SSB, section 3.10 b). Any number of
-// dimensions. A point's key is its number when the last dimension counts fastest, so ascending keys change
-// the first dimension's resource least often: put first what is dearest to change. A value.
+// A space whose points are combinations of resources: it has a dimension for each kind of resource (shader,
+// texture, mesh, ...) and a coordinate for each resource of that kind (ADSB, section 8.2; A2SSB, section 3.10
+// b). A point's key is its number if the last dimension counts fastest, so ascending keys change the first
+// dimension's resource least often: put first what is dearest to change. A value.
 class ResourceSpace {
   public:
-    // At least one dimension, each of at least one resource, at most 2^32 points in all.
+    // Fails unless there is a dimension, each has a resource, and there are at most 2^32 points in all.
     static Result<ResourceSpace> make(std::span<const std::uint64_t> sizes);
 
     std::size_t dimensions() const { return sizes_.size(); }
@@ -22,7 +22,7 @@ class ResourceSpace {
 
     // Fails if there are not as many coordinates as dimensions, or one is not below its dimension's size.
     Result<std::uint32_t> key(std::span<const std::uint32_t> coordinates) const;
-    // The inverse. `key` is below points().
+    // The inverse of key(). `key` must be below points().
     std::vector<std::uint32_t> coordinates(std::uint32_t key) const;
 
     bool operator==(const ResourceSpace&) const = default;

@@ -4,8 +4,7 @@
 
 namespace swath {
 
-// Memory that is used again from frame to frame: it grows, is never zeroed, and loses its contents when it
-// grows.
+// Memory that frames use again. It grows, is never zeroed, and loses its contents when it grows.
 template <class T>
 class Scratch {
   public:
@@ -14,7 +13,7 @@ class Scratch {
         if (size > capacity_) {
             const std::size_t capacity = size > 2 * capacity_ ? size : 2 * capacity_;
             data_.reset();  // the old block may serve for the new one
-            capacity_ = 0;  // and stays so if there is no memory
+            capacity_ = 0;  // it stays 0 if there is no memory
             data_ = std::make_unique_for_overwrite<T[]>(capacity);
             capacity_ = capacity;
         }
