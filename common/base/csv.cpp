@@ -17,9 +17,8 @@ class Reader {
     Result<CsvRecord> record() {
         CsvRecord record{line_, {}};
         for (;;) {
-            auto field = at_end() || text_[at_] != '"' ? plain() : quoted();
-            if (!field) return tl::unexpected(field.error());
-            record.fields.push_back(std::move(*field));
+            SWATH_TRY(std::string field, at_end() || text_[at_] != '"' ? plain() : quoted());
+            record.fields.push_back(std::move(field));
             if (take("\n") || take("\r\n")) {
                 ++line_;
                 return record;

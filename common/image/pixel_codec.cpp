@@ -239,7 +239,7 @@ Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& size
                        ObjectId object_limit, PixelFrame& frame) {
     // The region comes from the caller's plan, not from the peer.
     for (const Rect& rect : region) CHECK(frame.rect().contains(rect) == true);
-    if (const auto status = check_sizes(body, sizes, kSwathPixelBytes, region); !status) return status;
+    SWATH_TRY_VOID(check_sizes(body, sizes, kSwathPixelBytes, region));
     // Depths are read where they lie. A Buffer is aligned for them.
     CHECK(reinterpret_cast<std::uintptr_t>(body.data()) % alignof(float) == 0u);
     const auto* const depth = reinterpret_cast<const float*>(body.data());
@@ -250,10 +250,7 @@ Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& size
     const std::uint8_t* const rgb = body.data() + sizeof(float) * sizes.pixels;
     const std::size_t pixel_bytes = kSwathPixelBytes * sizes.pixels;
     std::vector<ObjectId> ids;
-    if (const auto status =
-            decode_ids(body.subspan(pixel_bytes + sizes.span_bytes), sizes.pixels, object_limit, ids);
-        !status)
-        return status;
+    SWATH_TRY_VOID(decode_ids(body.subspan(pixel_bytes + sizes.span_bytes), sizes.pixels, object_limit, ids));
     std::vector<std::uint32_t> colour;  // of one span
     return walk_spans(body.subspan(pixel_bytes, sizes.span_bytes), region, sizes.pixels,
                       [&](int x, int y, int length, std::uint32_t at) {
@@ -273,7 +270,7 @@ Status assemble_tile(std::span<const std::uint8_t> body, const BodySizes& sizes,
     const Rect all{0, 0, picture.width, picture.height};
     for (const Rect& rect : region) CHECK(all.contains(rect) == true);
     if (sizes.id_bytes != 0) return fail("a tile with object ids");
-    if (const auto status = check_sizes(body, sizes, kTilePixelBytes, region); !status) return status;
+    SWATH_TRY_VOID(check_sizes(body, sizes, kTilePixelBytes, region));
     return walk_spans(body.subspan(kTilePixelBytes * sizes.pixels), region, sizes.pixels,
                       [&](int x, int y, int length, std::uint32_t at) {
                           const std::size_t to =

@@ -8,9 +8,9 @@
 namespace swath {
 namespace {
 
-// Lambert with a head-light, per vertex. Both sides are lit: models from the world are not consistently
-// wound. A model that does not move is drawn without a word of motion. That of one that does is what posed()
-// says, but for a driver that fuses product and sum, which GLSL of this version cannot forbid.
+// Vertices are shaded by Lambert with the light at the eye, on both sides, because models from the world are
+// not consistently wound. Only moving models have code and data for motion. Their positions are those of
+// posed(), except where a driver fuses product and sum, which this version of GLSL cannot forbid.
 constexpr const char* kVersion = "#version 330 core\n";
 constexpr const char* kVertexShader = R"(
 layout(location = 0) in vec3 position;
@@ -50,11 +50,10 @@ GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const ObjectSet& scen
 
 Result<std::unique_ptr<Renderer>> GlRenderer::make(std::unique_ptr<GlContext> context,
                                                    const ObjectSet& scene) {
-    const auto gl = load_gl_functions(*context);
-    if (!gl) return tl::unexpected(gl.error());
-    std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::move(context), scene, *gl));
-    if (const auto status = renderer->make_program(); !status) return tl::unexpected(status.error());
-    if (const auto status = renderer->upload(); !status) return tl::unexpected(status.error());
+    SWATH_TRY(const GlFunctions gl, load_gl_functions(*context));
+    std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::move(context), scene, gl));
+    SWATH_TRY_VOID(renderer->make_program());
+    SWATH_TRY_VOID(renderer->upload());
     return renderer;
 }
 
@@ -170,12 +169,10 @@ Status GlRenderer::resize(int width, int height) {
 }
 
 Status GlRenderer::draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) {
-    if (view.width != width_ || view.height != height_) {
-        if (const auto status = resize(view.width, view.height); !status) return status;
-    }
+    if (view.width != width_ || view.height != height_) SWATH_TRY_VOID(resize(view.width, view.height));
     CHECK(view.viewport().contains(rect) == true);
     gl_.Scissor(rect.x0, rect.y0, rect.width(), rect.height());
-    // Only depth is cleared: a pixel that nothing touches keeps depth 1 and nobody looks at its colour or id.
+    // Only depth is cleared, because nobody looks at the colour or id of a pixel with depth 1.
     const float far = kFarDepth;
     gl_.ClearBufferfv(GL_DEPTH, 0, &far);
     gl_.UniformMatrix4fv(clip_from_model_, 1, GL_FALSE, &view.clip_from_model[0][0]);
@@ -191,7 +188,7 @@ Status GlRenderer::draw(std::span<const DrawRun> runs, const View& view, const R
     return check("drawing");
 }
 
-// All runs are of one object, which is one call: its id is the same for all.
+// Draws ranges of one object, which share its id, in one call.
 void GlRenderer::draw_object(std::span<const DrawRun> runs) {
     const ObjectId id = runs.front().object;
     CHECK(id < scene_.objects.size());

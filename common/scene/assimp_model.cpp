@@ -108,10 +108,8 @@ Result<Mesh> flatten(const aiScene& scene) {
         const Visit visit = open.back();
         open.pop_back();
         const Placement placement(visit.transform);
-        for (unsigned int i = 0; i < visit.node->mNumMeshes; ++i) {
-            const Status status = append(mesh, scene, *scene.mMeshes[visit.node->mMeshes[i]], placement);
-            if (!status) return tl::unexpected(status.error());
-        }
+        for (unsigned int i = 0; i < visit.node->mNumMeshes; ++i)
+            SWATH_TRY_VOID(append(mesh, scene, *scene.mMeshes[visit.node->mMeshes[i]], placement));
         for (unsigned int i = visit.node->mNumChildren; i > 0; --i) {
             const aiNode* child = visit.node->mChildren[i - 1];
             open.push_back({child, visit.transform * child->mTransformation});

@@ -171,15 +171,12 @@ class BodyReader {
             if (element.count > reader_.remaining() / row_bytes)
                 return fail("element {}: {} rows of at least {} bytes, but {} bytes are left", element.name,
                             element.count, row_bytes, reader_.remaining());
-            Status status;
-            if (element.name == "vertex") {
-                status = read_vertices(element);
-            } else if (element.name == "face") {
-                status = read_faces(element);
-            } else {
-                status = skip_rows(element);
-            }
-            if (!status) return tl::unexpected(status.error());
+            if (element.name == "vertex")
+                SWATH_TRY_VOID(read_vertices(element));
+            else if (element.name == "face")
+                SWATH_TRY_VOID(read_faces(element));
+            else
+                SWATH_TRY_VOID(skip_rows(element));
         }
         if (mesh_.indices.empty()) return fail("element face: no triangles in {} faces", face_count_);
         if (!has_normals_) compute_normals(mesh_);
@@ -253,11 +250,10 @@ class BodyReader {
         mesh_.indices.reserve(3 * std::min<std::size_t>(element.count, reader_.remaining() / triangle_bytes));
         for (std::uint64_t row = 0; row < element.count; ++row) {
             for (const PlyProperty& property : element.properties) {
-                if (&property != &*list) {
-                    if (!skip(property)) return fail_at(element, row, property);
-                } else if (Status status = read_polygon(element, row, property); !status) {
-                    return status;
-                }
+                if (&property == &*list)
+                    SWATH_TRY_VOID(read_polygon(element, row, property));
+                else if (!skip(property))
+                    return fail_at(element, row, property);
             }
             if (mesh_.triangle_count() > kMaxTriangles)
                 return fail("element face: more than {} triangles", kMaxTriangles);
@@ -300,17 +296,16 @@ class BodyReader {
 }  // namespace
 
 Result<Mesh> read_ply(std::span<const std::uint8_t> bytes) {
-    const Result<PlyHeader> header = read_ply_header(bytes);
-    if (!header) return tl::unexpected(header.error());
-    if (const Status status = check_header(*header); !status) return tl::unexpected(status.error());
-    const std::span<const std::uint8_t> body = bytes.subspan(header->body);
-    switch (header->format) {
+    SWATH_TRY(const PlyHeader header, read_ply_header(bytes));
+    SWATH_TRY_VOID(check_header(header));
+    const std::span<const std::uint8_t> body = bytes.subspan(header.body);
+    switch (header.format) {
         case PlyFormat::Ascii:
-            return BodyReader(*header, AsciiReader(body)).run();
+            return BodyReader(header, AsciiReader(body)).run();
         case PlyFormat::LittleEndian:
-            return BodyReader(*header, BinaryReader<false>(body)).run();
+            return BodyReader(header, BinaryReader<false>(body)).run();
         case PlyFormat::BigEndian:
-            return BodyReader(*header, BinaryReader<true>(body)).run();
+            return BodyReader(header, BinaryReader<true>(body)).run();
     }
     return fail("unknown format");
 }

@@ -63,7 +63,7 @@ class Reader {
     }
 
     Status begin_frame(FrameNumber number, const std::vector<std::string>& fields) {
-        if (const Status empty = expect_empty(fields, {kMachine, kBegin, kEnd, kCpu}); !empty) return empty;
+        SWATH_TRY_VOID(expect_empty(fields, {kMachine, kBegin, kEnd, kCpu}));
         if (fields[kName] != "overlap_factor") return fail("name: '{}' is not overlap_factor", fields[kName]);
         if (!frames_.empty() && number <= frames_.back().frame)
             return fail("frame: {} comes after {}", number, frames_.back().frame);
@@ -86,28 +86,23 @@ class Reader {
     Status add_span(const std::vector<std::string>& fields) {
         const auto phase = named<Phase>(fields[kName], kPhaseCount);
         if (!phase) return fail("name: '{}' is not a phase", fields[kName]);
-        const auto begin = time("begin_ms", fields[kBegin]);
-        if (!begin) return tl::unexpected(begin.error());
-        const auto end = time("end_ms", fields[kEnd]);
-        if (!end) return tl::unexpected(end.error());
-        const auto cpu = time("cpu_ms", fields[kCpu]);
-        if (!cpu) return tl::unexpected(cpu.error());
-        if (const Status empty = expect_empty(fields, {kValue}); !empty) return empty;
-        const auto to = machine(fields[kMachine]);
-        if (!to) return tl::unexpected(to.error());
-        (*to)->spans.push_back({*phase, *begin, *end, *cpu});
+        SWATH_TRY(const Nanoseconds begin, time("begin_ms", fields[kBegin]));
+        SWATH_TRY(const Nanoseconds end, time("end_ms", fields[kEnd]));
+        SWATH_TRY(const Nanoseconds cpu, time("cpu_ms", fields[kCpu]));
+        SWATH_TRY_VOID(expect_empty(fields, {kValue}));
+        SWATH_TRY(MachineTimeline* const to, machine(fields[kMachine]));
+        to->spans.push_back({*phase, begin, end, cpu});
         return {};
     }
 
     Status add_count(const std::vector<std::string>& fields) {
         const auto counter = named<Counter>(fields[kName], kCounterCount);
         if (!counter) return fail("name: '{}' is not a counter", fields[kName]);
-        if (const Status empty = expect_empty(fields, {kBegin, kEnd, kCpu}); !empty) return empty;
+        SWATH_TRY_VOID(expect_empty(fields, {kBegin, kEnd, kCpu}));
         std::uint64_t count = 0;
         if (!parse_all(fields[kValue], count)) return fail("value: '{}' is not a count", fields[kValue]);
-        const auto to = machine(fields[kMachine]);
-        if (!to) return tl::unexpected(to.error());
-        (**to)[*counter] = count;
+        SWATH_TRY(MachineTimeline* const to, machine(fields[kMachine]));
+        (*to)[*counter] = count;
         return {};
     }
 
@@ -117,19 +112,17 @@ class Reader {
 }  // namespace
 
 Result<std::vector<FrameTimeline>> parse_timeline(std::string_view csv, std::string_view source) {
-    const auto records = parse_csv(csv, kTimelineHeader, source);
-    if (!records) return tl::unexpected(records.error());
+    SWATH_TRY(const std::vector<CsvRecord> records, parse_csv(csv, kTimelineHeader, source));
     Reader reader;
-    for (std::size_t i = 1; i < records->size(); ++i)
-        if (const Status taken = reader.take((*records)[i]); !taken)
-            return fail_in(fmt::format("{}:{}", source, (*records)[i].line), taken.error());
+    for (std::size_t i = 1; i < records.size(); ++i)
+        if (const Status taken = reader.take(records[i]); !taken)
+            return fail_in(fmt::format("{}:{}", source, records[i].line), taken.error());
     return reader.frames();
 }
 
 Result<std::vector<FrameTimeline>> read_timeline(const std::filesystem::path& file) {
-    const Result<Buffer> bytes = read_file(file, kMaxFileBytes);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return parse_timeline({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
+    SWATH_TRY(const Buffer bytes, read_file(file, kMaxFileBytes));
+    return parse_timeline({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
 }  // namespace swath

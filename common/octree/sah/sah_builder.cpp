@@ -40,7 +40,7 @@ SahBuilder::SahBuilder(std::size_t threads, SahDevice device) : threads_(threads
 SahBuilder::~SahBuilder() = default;
 
 Result<SahTree> SahBuilder::build(const SahTriangles& triangles, const SahSettings& settings) {
-    if (const auto status = check_sah(triangles, settings); !status) return tl::unexpected(status.error());
+    SWATH_TRY_VOID(check_sah(triangles, settings));
     SahSettings limited = settings;
     limited.max_bytes = std::min(limited.max_bytes, machine_bytes());
     if (limited.grain == 0)
