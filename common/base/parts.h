@@ -23,8 +23,8 @@ inline Part part_of(std::size_t size, std::size_t parts, std::size_t index) {
 // as fast.
 inline std::size_t read_ahead(std::size_t i, Part part) { return std::min(i + 64, part.end - 1); }
 
-// How many parts to make: one per member, but none smaller than `least`, for which waking a member costs more
-// than it saves.
+// The number of parts to make: one per member, but none smaller than `least`, for which waking a member costs
+// more than it saves.
 inline std::size_t parts_for(std::size_t size, std::size_t least, const ThreadTeam& team) {
     return std::clamp<std::size_t>(size / least, 1, team.size());
 }

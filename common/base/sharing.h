@@ -23,7 +23,7 @@ class Sharing {
   public:
     Sharing(const ThreadTeam& team, SharingMode mode) : team_(team), mode_(mode) {}
 
-    // How many members should do a frame of `expected_ns`, 1 or more. Begins to measure the frame.
+    // The number of members for a frame of `expected_ns`, 1 or more. Begins to measure the frame.
     std::size_t members(double expected_ns);
     // Call it when the frame is done. `work_ns` is the work that it turned out to be.
     void done(double work_ns);

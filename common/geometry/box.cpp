@@ -5,7 +5,7 @@
 namespace swath {
 namespace {
 
-// What box_at() must add. Let a point be at x at pose 0, move by m, and be at e = x + m at pose 1. At pose p
+// The margin of box_at(). Let a point be at x at pose 0, move by m, and be at e = x + m at pose 1. At pose p
 // it is at (1 - p) x + p e. With u = 2^-24, half a unit in the last place of 1:
 // - `end` contains the rounded e, which is off by at most u |e|;
 // - the product p m is off by at most u |p m|, where |m| is below (1 + u) (|x| + |e|);

@@ -5,7 +5,7 @@
 
 namespace swath {
 
-// What a person looks from and at. Lengths are in the model's units, the angle in radians.
+// An eye and what it looks at. Lengths are in the model's units, the angle in radians.
 struct Camera {
     glm::vec3 eye{0, 0, 1};
     glm::vec3 target{0, 0, 0};

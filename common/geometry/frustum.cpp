@@ -5,8 +5,8 @@
 namespace swath {
 namespace {
 
-// How much of a clip coordinate single precision may lose, relative to the sum of its terms' magnitudes: the
-// renderer's 4 products and 3 sums lose at most 2.4e-7, clipping as much again.
+// The part of a clip coordinate that single precision may lose, relative to the sum of its terms' magnitudes:
+// the renderer's 4 products and 3 sums lose at most 2.4e-7, clipping as much again.
 constexpr double kFloatLoss = 1e-6;
 // A pixel is drawn if its centre is covered, so an error below half a pixel, less the rasteriser's snapping,
 // cannot reach the next one.

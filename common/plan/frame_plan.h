@@ -27,7 +27,7 @@ struct FramePlan {
     bool operator==(const FramePlan&) const = default;
 };
 
-// Whether every object is in exactly one group (hybrid, sort-last) or in at least one (sort-first).
+// Every object is in exactly one group (hybrid, sort-last) or in at least one (sort-first).
 enum class Grouping { kExactlyOnce, kAtLeastOnce };
 
 // Says in one line what is wrong with a plan, or nothing. Tiles must cover the viewport exactly once,

@@ -40,7 +40,7 @@ struct alignas(64) PacketHits {
     float weight[3][kPacketRays];  // of the corners; they add up to any number but 0
 };
 
-// How much work it was to find hits.
+// The work of finding hits.
 struct PacketWork {
     std::uint64_t packets = 0;
     std::uint64_t steps = 0;  // planes of inner nodes that a packet came to

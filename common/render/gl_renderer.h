@@ -10,9 +10,10 @@
 
 namespace swath {
 
-// The rasteriser behind OSMesa and EGL: one framebuffer object with RGBA8 colour, R32UI object id and D32F
-// depth, at most one draw call an object. Bits are kept equal across servers by drawing with the full
-// viewport and limiting with the scissor, by GL_LESS and by ascending ids (docs/design.md, "Exactness").
+// The rasteriser behind OSMesa and EGL. It draws into one framebuffer object with RGBA8 colour, R32UI object
+// id and D32F depth, with at most one draw call an object. Pixels are the same on all servers because it
+// draws with the full viewport, limited by the scissor, with GL_LESS and ascending ids (docs/design.md,
+// "Exactness").
 class GlRenderer final : public Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> make(std::unique_ptr<GlContext> context, const ObjectSet& scene);
@@ -29,7 +30,7 @@ class GlRenderer final : public Renderer {
     void draw_object(std::span<const DrawRun> runs);
     Status check(const char* what) const;
 
-    std::unique_ptr<GlContext> context_;  // its objects die with it
+    std::unique_ptr<GlContext> context_;  // GL objects end with it
     const ObjectSet& scene_;
     GlFunctions gl_;
     int width_ = 0;
@@ -39,10 +40,10 @@ class GlRenderer final : public Renderer {
     GLuint depth_buffer_ = 0;
     GLint clip_from_model_ = -1;
     GLint to_light_ = -1;
-    GLint pose_ = -1;  // of a model that moves
+    GLint pose_ = -1;  // only of a moving model
     GLint object_ = -1;
-    std::vector<GLsizei> counts_;         // of the runs of one object
-    std::vector<const void*> positions_;  // in the index buffer
+    std::vector<GLsizei> counts_;         // of the ranges of one object, in indices
+    std::vector<const void*> positions_;  // of these in the index buffer, in bytes
 };
 
 // With OSMesa or EGL, on the calling thread. The scene must outlive it. Fails when the library or the driver

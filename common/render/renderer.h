@@ -23,22 +23,22 @@ struct RendererSetup {
     bool operator==(const RendererSetup&) const = default;
 };
 
-// Draws objects of one ObjectSet and hands out the pixels. What it draws for a pixel depends on the objects
-// and the view only, never on the other pixels asked for: that is what makes a cluster's picture exact. A
-// resource bound to the thread that made it: every call comes from there, and no second renderer lives there.
+// Draws objects of one ObjectSet and hands out the pixels. A pixel depends on the objects and the view only,
+// never on which pixels are asked for: that makes a cluster's picture exact. It is bound to the thread that
+// made it: all calls come from there, and no second renderer lives there.
 class Renderer {
   public:
     virtual ~Renderer() = default;
 
-    // Draws `runs` (of ascending triangles, each inside of its object) with the view's full viewport, limited
-    // to `rect`. Blocks until it is drawn. A nearer fragment wins; of equal depths the one drawn first, so
-    // the smaller id.
+    // Draws `runs` (ascending triangles, each run in its object) with the view's full viewport, limited to
+    // `rect`, which must lie in it. Blocks until all is drawn. The nearer fragment wins, of equal depths the
+    // smaller id. Errors name the limit or what the device lacks.
     virtual Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) = 0;
 
-    // Colour, depth and id of `rect` of the last draw, into `frame`, which must contain it.
+    // Writes colour, depth and id of `rect`, as drawn last, into `frame`, which must contain it.
     virtual Status read(const Rect& rect, PixelFrame& frame) = 0;
 
-    // For people: library, version, limits.
+    // Says for people what draws: library, version, limits.
     virtual std::string description() const = 0;
 };
 

@@ -25,7 +25,7 @@ struct Mesh {
     std::vector<std::uint32_t> indices;
     // Each triangle's material, as the model numbers them. Empty: all have number 0.
     std::vector<std::uint32_t> materials;
-    // How far each vertex moves from pose 0 to pose 1. Empty: nothing moves. Normals and colours stay: parts
+    // Each vertex's movement from pose 0 to pose 1. Empty: nothing moves. Normals and colours stay: parts
     // move but do not bend.
     std::vector<glm::vec3> motion;
 

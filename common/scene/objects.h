@@ -45,7 +45,7 @@ enum class ObjectsBy : std::uint8_t { kUniform, kSah };
 std::string_view name_of(ObjectsBy by);
 Result<ObjectsBy> parse_objects_by(std::string_view name);
 
-// How finely to cut a model into objects, and these into leaves.
+// The fineness of the cut of a model into objects, and of these into leaves.
 struct Granularity {
     // The depth of the uniform octree, 0 to kMaxOctreeDepth. Without it, the depth that comes closest to
     // `objects`. Not with kSah, whose octree has no one depth.
@@ -59,7 +59,7 @@ struct Granularity {
 inline constexpr int kMaxOctreeDepth = 10;
 inline constexpr std::size_t kMaxObjectsAsked = 1'000'000;
 
-// How a model was cut: all that every machine needs to cut it so again. A value.
+// The cut of a model into objects: all that every machine needs to repeat it. A value.
 struct Cut {
     ObjectsBy by = ObjectsBy::kUniform;
     int depth = 0;            // of the octree, with kUniform

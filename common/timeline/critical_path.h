@@ -16,7 +16,7 @@ struct CriticalSpan {
     bool operator==(const CriticalSpan&) const = default;
 };
 
-// How far two machines' clocks may disagree: half a quick round trip in a busy network.
+// The most that two machines' clocks may disagree: half a quick round trip in a busy network.
 inline constexpr Nanoseconds kClockError = std::chrono::microseconds(200);
 
 // The chain of spans that the frame's picture waited for, first to last. It ends with the display's last

@@ -10,7 +10,8 @@
 
 namespace swath {
 
-// What a machine does for a frame. Measured and simulated frames have the same phases (docs/design.md).
+// A kind of work that a machine does for a frame. Measured and simulated frames have the same phases
+// (docs/design.md).
 enum class Phase : std::uint8_t {
     kPartition,   // client: objects and camera to a plan
     kCull,        // server: leaves of the group's objects against the content's frustum
@@ -27,7 +28,7 @@ enum class Phase : std::uint8_t {
 inline constexpr std::size_t kPhaseCount = 11;
 std::string_view name(Phase phase);  // "partition", "cull", "render", "pixel read", ...; CHECKs the range
 
-// What a machine counted for a frame.
+// A number that a machine counts for a frame.
 enum class Counter : std::uint8_t {
     kTriangles,       // server: drawn after culling
     kObjects,         // server: drawn after culling
@@ -68,7 +69,7 @@ struct MachineTimeline {
     bool operator==(const MachineTimeline&) const = default;
 };
 
-// What one frame took on every machine, as the cluster measured or the simulator computed it. A value. A
+// The times and counts of one frame, which the cluster measured or the simulator computed. A value. A
 // machine's spans may overlap those of neighbouring frames.
 struct FrameTimeline {
     FrameNumber frame = 0;

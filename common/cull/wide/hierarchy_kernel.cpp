@@ -58,7 +58,7 @@ inline std::uint32_t* walk_leaf(const WideWalk& walk, std::uint32_t block, std::
     return packed(out, add(all(16 * block), load(kCounting)), kept);
 }
 
-// How the 16 children of an inner block lie to the frustum.
+// The 16 children of an inner block, as tested.
 struct Children {
     std::uint32_t kept;                    // a bit for each child that is not outside
     std::uint32_t crossing;                // a bit for each of those that is not inside either

@@ -6,8 +6,7 @@ namespace swath {
 // A plane of a frustum as kernels take it.
 struct KernelPlane {
     float x, y, z, w;
-    // Where in a block the arrays with the x, y and z of the p-vertex, and of the n-vertex, begin, in
-    // numbers.
+    // The indices in a block at which the arrays with x, y and z of the p-vertex, and of the n-vertex, begin.
     std::uint32_t p[3];
     std::uint32_t n[3];
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What the kernels of the hierarchy and of the octree have in common. As lanes.h, only for kernels.
+// Steps that the kernels of the hierarchy and of the octree share. Only for kernels, like lanes.h.
 #include <cstddef>
 #include <cstdint>
 

@@ -28,8 +28,8 @@ class WideCuller final : public Culler {
     FlatScan scan_;
     bool scanned_ = false;
     bool small_ = false;  // the last frame tested little of the hierarchy
-    // Of the blocks below a node of 256 boxes that crosses a plane, the part that crosses one, too, as the
-    // last frame showed it. It tells a good order from a bad one; a good one's is about this.
+    // The part of the blocks below a crossing node of 256 boxes that cross a plane, too, in the last frame
+    // that showed it. It tells a good order, of which it is about this, from a bad one.
     double crossing_part_ = 0.4;
 };
 

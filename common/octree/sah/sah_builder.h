@@ -12,7 +12,7 @@ namespace swath {
 
 class SahBuild;
 
-// What builds trees: threads of this machine, or a CUDA device.
+// The device that builds trees: threads of this machine, or CUDA.
 enum class SahDevice { kThreads, kCuda };
 
 // Says why kCuda is not available: the program is built without CUDA, or the machine has no device. Empty if

@@ -215,7 +215,7 @@ SWATH_BOTH void count_bins(const SahReference* references, std::uint32_t count, 
             ++bins.ends[axis][end.of[axis]];
         }
     }
-    // What rounding puts beyond the last bin belongs into it.
+    // Rounding may put a side beyond the last bin, into which it belongs.
     for (int axis = 0; axis < 3; ++axis) {
         bins.starts[axis][bins.count - 1] += bins.starts[axis][bins.count];
         bins.ends[axis][bins.count - 1] += bins.ends[axis][bins.count];
@@ -557,8 +557,8 @@ struct ChildCounts {
     std::uint32_t pending_ = 0;
 };
 
-// How many triangles the leaves of a child with `count` may have, if its parent's leaves may have `allowed`
-// and all children together need `needed` or more.
+// The most triangles that the leaves of a child with `count` may have, if its parent's leaves may have
+// `allowed` and all children together need `needed` or more.
 SWATH_BOTH std::uint32_t share_of(std::uint32_t allowed, std::uint32_t needed, std::uint32_t count) {
     const std::uint32_t least = count > 0 ? count : 1;
     return least + static_cast<std::uint32_t>(static_cast<std::uint64_t>(allowed - needed) * least / needed);

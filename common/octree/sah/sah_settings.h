@@ -4,7 +4,7 @@
 
 namespace swath {
 
-// How SAH trees are built. Bins are as in section 4.1 of the SAH octree paper (Günther and others 2007).
+// The settings of an SAH build. Bins are as in section 4.1 of the SAH octree paper (Günther and others 2007).
 struct SahSettings {
     // A node of n triangles has n / bin_ratio bins an axis, at least min_bins and at most max_bins.
     std::uint32_t min_bins = 8;    // at least 2

@@ -5,7 +5,7 @@
 namespace swath {
 namespace {
 
-// Where a subtree is written: memory of its own, as much as it may need. nodes[0] is the root.
+// The memory that a subtree is written to, as much as it may need. nodes[0] is the root.
 struct SahSubtreeOutput {
     std::uint32_t* nodes;      // 4 words a node, as in SahNode; links count from nodes[0]
     std::uint32_t* triangles;  // of the leaves, which count from triangles[0]
