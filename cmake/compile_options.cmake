@@ -5,7 +5,9 @@ target_include_directories(swath_options SYSTEM INTERFACE ${SWATH_EXPECTED_INCLU
 target_compile_options(swath_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor
   # Floating point contraction would make depths and cull decisions depend on the compiler.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # A failed CHECK names a file of the tree, not the folder in which somebody built it.
+  -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 target_compile_definitions(swath_options INTERFACE GLM_FORCE_CTOR_INIT GLM_ENABLE_EXPERIMENTAL)
 target_link_libraries(swath_options INTERFACE glm::glm fmt::fmt Threads::Threads)
 if(SWATH_WERROR)
