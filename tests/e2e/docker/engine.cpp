@@ -8,7 +8,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
+#include <iterator>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -17,6 +20,7 @@ namespace {
 
 constexpr std::chrono::minutes kBuilding(15);
 const std::string kSource = SWATH_SOURCE_DIR;
+const std::string kBuild = SWATH_BUILD_DIR;
 
 Finished run(const Arguments& command, const Process::Options& options, std::chrono::milliseconds limit) {
     return Process("/usr/bin/env", command, options).wait(limit);
@@ -39,6 +43,41 @@ std::vector<std::string> lines(const std::string& text) {
 [[noreturn]] void fail(const Arguments& command, const Finished& finished) {
     throw std::runtime_error(fmt::format("{} ended with {}: {}{}", fmt::join(command, " "),
                                          finished.exit_code, finished.out, finished.err));
+}
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Gives the image in which this build's programs run: "debian:bookworm-slim" if the tests run on Debian 12.
+std::string own_base() {
+    static const std::regex kName("(^|\n)VERSION_CODENAME=(\\w+)");
+    const std::string system = text_of("/etc/os-release");
+    std::smatch name;
+    return std::regex_search(system, name, kName) ? "debian:" + name[2].str() + "-slim" : "";
+}
+
+// Shows the builder's own lines, because it may compile, which takes minutes.
+void build_image(const std::string& name, const std::filesystem::path& file,
+                 const std::filesystem::path& context) {
+    const std::string command =
+        fmt::format("docker build -f '{}' -t {} '{}'", file.string(), name, context.string());
+    std::cout << command << std::endl;
+    if (std::system(command.c_str()) != 0) throw std::runtime_error("cannot build " + name);
+}
+
+// Builds an image of a Dockerfile with this text, in a folder with nothing but this build's package.
+void build_with_package(const std::string& name, const std::string& dockerfile) {
+    std::string folder = "/tmp/swath-package-XXXXXX";
+    if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no folder for the package");
+    const Arguments pack{SWATH_CPACK, "-G", "DEB", "--config", kBuild + "/CPackConfig.cmake", "-B", folder};
+    const Finished packed = run(pack, {}, std::chrono::minutes(2));
+    if (packed.exit_code != 0) fail(pack, packed);
+    std::filesystem::remove_all(folder + "/_CPack_Packages");
+    std::ofstream(folder + "/Dockerfile") << dockerfile;
+    build_image(name, folder + "/Dockerfile", folder);
+    std::filesystem::remove_all(folder);
 }
 
 bool succeeds(const Arguments& command) { return run(command, {}, std::chrono::seconds(30)).exit_code == 0; }
@@ -102,11 +141,19 @@ Image::Image() {
         return;
     }
     name_ = fmt::format("swath-test:{}", ::getpid());
-    // Shows the builder's own lines, because compiling takes minutes.
-    const std::string command =
-        fmt::format("docker build -f '{0}/docker/Dockerfile' -t {1} '{0}'", kSource, name_);
-    std::cout << command << std::endl;
-    if (std::system(command.c_str()) != 0) throw std::runtime_error("cannot build the image");
+    const std::string file = text_of(kSource + "/docker/Dockerfile");
+    const std::string last_stage = file.substr(file.rfind("\nFROM ") + 1);
+    if (std::getenv("SWATH_IMAGE_FROM_SOURCE") != nullptr ||
+        !last_stage.starts_with("FROM " + own_base() + "\n"))
+        build_image(name_, kSource + "/docker/Dockerfile", kSource);
+    else
+        build_with_package(name_, "FROM scratch AS build\nCOPY swath_*.deb /swath/build/\n" + last_stage);
+    ours_ = true;
+}
+
+Image::Image(const std::string& last_lines) {
+    name_ = fmt::format("swath-bare-test:{}", ::getpid());
+    build_with_package(name_, fmt::format("FROM {}\nCOPY swath_*.deb /\n{}", own_base(), last_lines));
     ours_ = true;
 }
 

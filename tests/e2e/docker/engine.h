@@ -21,11 +21,15 @@ Finished docker(const Arguments& arguments, std::chrono::milliseconds limit = st
 std::string docker_says(const Arguments& arguments);
 std::vector<std::string> docker_lines(const Arguments& arguments);
 
-// The image under test: $SWATH_IMAGE, or one that is built from the working tree under a name of its own.
+// The image under test: $SWATH_IMAGE, or one that is built from docker/Dockerfile under a name of its own. It gets this
+// build's package if the image's base is this machine's system; otherwise, and if $SWATH_IMAGE_FROM_SOURCE is set, it
+// compiles the working tree.
 class Image {
   public:
     // Builds, and shows the builder's output. Throws std::runtime_error when it fails.
     Image();
+    // This machine's system with this build's package as /swath_*.deb and nothing else; then `last_lines` of a Dockerfile.
+    explicit Image(const std::string& last_lines);
     ~Image();  // removes the image that it built, but not the build cache
     Image(const Image&) = delete;
     Image& operator=(const Image&) = delete;
