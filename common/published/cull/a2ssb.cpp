@@ -5,7 +5,7 @@
 namespace swath {
 namespace {
 
-// Where share k of `size` things begins, which are dealt out to `parts` in order. It ends where share k + 1
+// The begin of share k of `size` things that are dealt out to `parts` in order. It ends where share k + 1
 // begins.
 std::size_t share_begin(std::size_t size, std::size_t k, std::size_t parts) { return size * k / parts; }
 

@@ -4,7 +4,7 @@
 
 #include "common/published/octree/octree_node.h"
 
-// What the kernel of the published algorithms (walk_kernel.cpp) and the code around it share: plain data, and
+// walk_kernel.cpp, the kernel of the published algorithms, and the code around it share this: plain data, and
 // functions that are somewhere else. A kernel source must not see containers or glm.
 namespace swath {
 
