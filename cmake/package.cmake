@@ -8,7 +8,7 @@ foreach(program IN LISTS programs)
 endforeach()
 # The image is built without these.
 install(FILES LICENSE README.md CHANGELOG.md TYPE DOC OPTIONAL)
-install(DIRECTORY docs TYPE DOC OPTIONAL)
+install(DIRECTORY docs TYPE DOC OPTIONAL PATTERN images EXCLUDE)
 
 # A manual page is what its program says with --help, so the program has to run.
 set(pages "")
