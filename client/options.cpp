@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMaxLocalServers = 64;
 
-// "ff8000"
+// Reads "ff8000".
 Status parse_colour(const std::string& text, Rgb& colour) {
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
@@ -22,7 +22,7 @@ Status parse_colour(const std::string& text, Rgb& colour) {
     return {};
 }
 
-// "1,0.5,-2"
+// Reads "1,0.5,-2".
 Status parse_light(const std::string& text, std::optional<glm::vec3>& light) {
     glm::vec3 to(0);
     const char* at = text.data();

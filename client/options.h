@@ -15,7 +15,7 @@
 
 namespace swath {
 
-// What swath-client was asked for; checked.
+// The command line of swath-client, checked.
 struct ClientOptions {
     std::string model;
     bool single = false;
@@ -33,12 +33,12 @@ struct ClientOptions {
     Rgb background{16, 18, 24};
     std::optional<std::size_t> frames;
     std::optional<float> pose;       // of a model that moves, 0 to 1
-    std::optional<glm::vec3> light;  // towards it, not 0
+    std::optional<glm::vec3> light;  // direction to it, not 0
     std::string path = "orbit";
     std::uint64_t seed = 1;
     double zoom = 1;
     std::uint32_t in_flight = 3;
-    int threads = -1;   // beside the drawing one, per process; -1: as fits
+    int threads = -1;   // besides the drawing one, per process; -1: as many as fit
     bool cuda = false;  // builds the trees of ray casters on this machine
     std::string out;    // folder of pictures; empty: none
     PictureFormat format = PictureFormat::kPng;
@@ -47,7 +47,7 @@ struct ClientOptions {
     ProgramOptions program;
     std::optional<std::string>
         view;                // [HOST:]PORT of the page that a local display serves, "" elsewhere; a live run
-    WishLimits view_limits;  // its servers are filled in by the run
+    WishLimits view_limits;  // the run fills in its servers
     WireTiming timing;
 };
 

@@ -24,8 +24,7 @@
 namespace swath {
 namespace {
 
-// Several servers share this machine's cores: each draws with its own thread and as many more as are left
-// over.
+// Servers on one machine share its cores: each draws with its own thread and an equal part of the rest.
 std::string raster_threads(std::size_t servers) {
     return std::to_string(std::max<std::size_t>(1, std::thread::hardware_concurrency() / servers) - 1);
 }
@@ -43,7 +42,7 @@ Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) 
                        std::to_string(options.timing.silence_limit / std::chrono::milliseconds(1))};
     local.server_arguments = {
         "--threads", options.threads >= 0 ? std::to_string(options.threads) : raster_threads(options.local)};
-    // The servers see what we see; without a device nobody needs to hear of it from each of them.
+    // The servers see the devices that we see; if there is none, one line in the log is enough.
     if (builds_on_cuda(options))
         local.server_arguments.insert(local.server_arguments.end(), {"--trees-on", "cuda"});
     if (options.view) local.display_arguments = {"--view", *options.view};
@@ -55,13 +54,13 @@ std::optional<glm::vec3> to_light(const ClientOptions& options) {
     return glm::vec3(glm::normalize(glm::dvec3(*options.light)));
 }
 
-// Of all frames; none: of each as the path has it.
+// The pose of all frames; none: each frame has the path's.
 std::optional<float> pose_of(const ClientOptions& options, const ObjectSet& scene) {
     if (!scene.moves()) return 0.0f;
     return options.view ? options.pose.value_or(0) : options.pose;
 }
 
-// What a live run starts with: the path's first camera.
+// A live run starts with the path's first camera.
 Result<LiveView::Settings> live_settings(const ClientOptions& options, const ObjectSet& scene,
                                          const Camera& home) {
     LiveView::Settings live;
@@ -90,7 +89,7 @@ std::string quoted(const std::string& word) {
     return text + "'";
 }
 
-// The command that draws what a live run shows, with the camera in a file.
+// The command that draws the view of a live run, with the camera in a file.
 std::string command_of(const ClientOptions& options, const LiveWish& wish,
                        const std::vector<Address>& servers, const Cut& cut) {
     const std::size_t count = std::min(wish.servers.value_or(servers.size()), servers.size());

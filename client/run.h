@@ -5,8 +5,8 @@
 
 namespace swath {
 
-// Does what swath-client was asked for: loads the model, renders its frames here or on a cluster, keeps
-// pictures and timeline, and prints the summary to stdout. Blocking.
+// Does what the command line says: loads the model, renders its frames here or on a cluster, keeps pictures
+// and timeline, and prints the summary to stdout. Blocking.
 Status run_client(const ClientOptions& options, StopSignals& signals);
 
 }  // namespace swath

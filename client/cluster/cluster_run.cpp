@@ -106,8 +106,6 @@ void ClusterRun::finish(Result<std::vector<FrameTimeline>> result) {
     });
 }
 
-// --- who takes part
-
 Status ClusterRun::on_started(const std::string& page) {
     if (live_) live_->on_servers(machines_->members().size());
     tell_session();
@@ -134,7 +132,7 @@ void ClusterRun::on_members() {
     if (!status) finish(tl::unexpected(status.error()));
 }
 
-// Who looks may as well wait for one; a run along a path has an end to come to.
+// Viewers may wait for a server; a run along a path must end.
 void ClusterRun::await_servers() {
     if (live_) return;
     patience_.expires_after(job_.connect_patience);
@@ -144,7 +142,7 @@ void ClusterRun::await_servers() {
 }
 
 void ClusterRun::tell_session() {
-    // Viewers are told the file's name, not where it lies.
+    // Viewers get the file's name, not its folder.
     SessionFacts facts{std::filesystem::path(job_.model).filename().string(),
                        job_.scene->mesh.triangle_count(),
                        job_.scene->swept_bounds(),
@@ -180,8 +178,6 @@ Status ClusterRun::on_display(Message&& message, const Buffer& body) {
     if (const auto* wish = std::get_if<Wish>(&message)) return on_wish(*wish, body);
     return fail("{} is not expected from a display", name(message));
 }
-
-// --- frames
 
 Status ClusterRun::run(const Director::Actions& actions) {
     for (const DirectorAction& action : actions) {
@@ -237,7 +233,7 @@ Status ClusterRun::issue(FrameNumber number) {
         throw CheckFailed(fmt::format("frame {}: {}", number, *wrong));
 
     AssembleFrame assemble{number, order.width, order.height, job_.background, {}, order.stream};
-    // A plan has places, messages have the servers' numbers; both ascend.
+    // A plan has ranks, messages have the servers' numbers; both ascend.
     OpenFrame& frame = frames_[number];
     frame.servers.assign(machines_->members().begin(),
                          machines_->members().begin() + static_cast<std::ptrdiff_t>(plan.servers.size()));
@@ -335,8 +331,7 @@ Status ClusterRun::on_wish(const Wish& wish, const Buffer& body) {
     if (body.size() > kMaxWishBytes)
         return fail("a Wish of {} bytes, the limit is {}", body.size(), kMaxWishBytes);
     const std::string_view text(reinterpret_cast<const char*>(body.data()), body.size());
-    // What a page says ends nothing: the display has checked that it is a wish, and the next one may be
-    // better.
+    // A bad wish ends nothing: the next one may be better.
     if (const auto status = live_->on_wish(text, wish.viewer); !status)
         spdlog::warn("viewer {}: {}", wish.viewer, status.error().message);
     if (live_->take_trace()) broadcast_.on_trace({timelines_.begin(), timelines_.end()});
@@ -360,14 +355,14 @@ void ClusterRun::tell_state() {
                         job_.command(shown, servers, job_.scene->cut));
 }
 
-// No frame is open, and none is begun until the director hears that the change is over.
+// No frame is open, and the director begins none until it hears that the change is over.
 Status ClusterRun::change_setup() {
     const auto wanted = live_ ? live_->wanted_setup() : std::nullopt;
     if (!wanted) return go_on();
     next_setup_ = *wanted;
     changing_ = true;
     tell_state();
-    // The client cuts the model first: the servers are told how.
+    // The client cuts the model first, then tells the servers how.
     if (wanted->objects == live_->setup().objects) return on_cut(job_.scene);
     if (!cutter_) cutter_ = std::make_unique<WorkerThread>();
     // The task holds nothing alive: the run's end waits for it.

@@ -25,7 +25,7 @@
 
 namespace swath {
 
-// What a run renders and where.
+// A run: what it renders and where.
 struct ClusterJob {
     ServerSource servers;
     Address display;
@@ -40,10 +40,10 @@ struct ClusterJob {
     std::vector<Camera> cameras;        // a frame each; none in a live run
     std::optional<float> pose = 0;      // of all frames; none: path_pose() of each
     std::optional<glm::vec3> to_light;  // unit, model space; none: a head-light
-    // A live run: viewers say what is drawn, until somebody ends it. Renderers, cull, algorithm and size are
-    // then its start's.
+    // Makes a live run: viewers say what is drawn, until somebody ends it. Renderers, cull, algorithm and
+    // size are then those of its start.
     std::optional<LiveView::Settings> live;
-    // The command line that draws a view, for people who look.
+    // Makes the command line that draws a view, for viewers.
     std::function<std::string(const LiveWish&, const std::vector<Address>& servers, const Cut&)> command =
         [](const auto&, const auto&, const auto&) { return std::string(); };
     int width = 1280;
@@ -56,13 +56,14 @@ struct ClusterJob {
     WireTiming timing;
 };
 
-// Drives a job's machines through it: partitions frame by frame, tells each its part, and gathers what every
-// one did. It does what the Director decides with whom Machines has brought up, and in a live run draws what
-// LiveView says. On the io_context's thread, but for cutting a model anew.
+// Drives a job's machines through it: partitions frame by frame, tells each machine its part, and gathers
+// their reports. It does what the Director decides with the servers that Machines has brought up; in a live
+// run it draws what LiveView says. On the io_context's thread; only a model is cut anew on another.
 class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
   public:
     struct Handlers {
-        // So many servers and the display are set up. The address of the display's page, if it has one.
+        // So many servers and the display are set up. `page` is the address of the display's page, if it has
+        // one.
         std::function<void(const std::string& page, std::size_t servers)> on_ready;
         std::function<Status(FrameNumber, const Buffer& picture)> on_picture;  // encoded; empty if no format
         std::function<void(Result<std::vector<FrameTimeline>>)> on_done;       // once, last
@@ -78,7 +79,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
   private:
     struct OpenFrame {
         FinishedFrame finished;         // as far as it is known
-        std::vector<ServerId> servers;  // by their places in the plan
+        std::vector<ServerId> servers;  // by rank
         std::size_t missing = 0;        // reports
     };
 
@@ -91,7 +92,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Status on_wish(const Wish& wish, const Buffer& body);
     Status on_report(std::size_t machine, const Report& report, Nanoseconds clock_offset, const Buffer& body);
     Status run(const Director::Actions& actions);
-    // What the wish asks for, as far as it can be begun now.
+    // Begins as much of the wish as is possible now.
     Status follow_wish();
     FrameOrder order_of(FrameNumber frame);
     Status issue(FrameNumber frame);
@@ -111,8 +112,8 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     const Clock& clock_;
     Handlers handlers_;
     std::shared_ptr<Machines> machines_;                              // from start() on
-    std::map<Algorithm, std::unique_ptr<Partitioner>> partitioners_;  // of job_.scene, made when first needed
-    std::optional<ObjectCosts> costs_;                                // of job_.scene
+    std::map<Algorithm, std::unique_ptr<Partitioner>> partitioners_;  // of job_.scene, made on demand
+    std::optional<ObjectCosts> costs_;                                // for job_.scene
     Director director_;
     std::map<FrameNumber, OpenFrame> frames_;
     std::deque<FrameTimeline> timelines_;

@@ -44,7 +44,7 @@ Status LiveView::on_wish(std::string_view json, std::uint32_t by) {
     }
     if (wish_.path != before.path || wish_.width != before.width || wish_.height != before.height)
         start_path();
-    // A page that has just loaded counts from 0: less than before asks for nothing.
+    // A page that has just loaded counts from 0: a smaller number than before asks for nothing.
     if (wish_.step > before.step) ++steps_;
     if (!wish_.paused) steps_ = 0;
     if (wish_.trace > before.trace) trace_ = true;
@@ -58,7 +58,7 @@ Status LiveView::on_wish(std::string_view json, std::uint32_t by) {
     return {};
 }
 
-// A camera that is one by itself may still be too far from this model, or too narrow, for single precision.
+// A valid camera may still be too far from this model, or too narrow, for single precision.
 Status LiveView::check_camera() const {
     const FrameOrder order = order_of(wish_.camera, wish_.algorithm, servers());
     const View view = make_view(order.camera, order.width, order.height);
@@ -106,7 +106,7 @@ bool LiveView::wants_frame() const {
 FrameOrder LiveView::order_of(const CameraNumbers& numbers, Algorithm algorithm, std::size_t servers) const {
     FrameOrder order;
     order.numbers = numbers;
-    // From the numbers, also where a path has a camera: what is drawn is what a file of them would draw.
+    // Comes from the numbers even on a path, so that a camera file of them draws the same.
     const auto camera = camera_of(numbers);
     CHECK(camera.has_value() == true);
     order.camera = with_depth_range(*camera, settings_.bounds);

@@ -11,7 +11,7 @@
 
 namespace swath {
 
-// One frame to be drawn: what its plan is made from.
+// One frame to be drawn: its plan is made from this.
 struct FrameOrder {
     CameraNumbers numbers{};
     Camera camera;
@@ -22,12 +22,12 @@ struct FrameOrder {
     std::uint32_t stream = 0;  // 1: the second algorithm of a comparison
     std::uint64_t wish = 0;
     std::uint32_t by = 0;
-    std::size_t measurement = 0;  // of speed-ups: which; 0 for none
-    bool counts = false;          // ... and whether the frame counts, or only fills the pipeline
+    std::size_t measurement = 0;  // the number of the speed-up measurement; 0: none
+    bool counts = false;          // whether it counts in that, or only fills the pipeline
 };
 
 // Decides what a live run draws next, from the newest wish: a newer one replaces the older, nothing is
-// queued. Frames are wanted while somebody looks and the wish is new, a path plays, the second of two
+// queued. It wants a frame while somebody looks and the wish is new, a path plays, the second of two
 // algorithms is due, a single step was asked for or speed-ups are being measured. Sans-I/O, without a clock.
 // Not thread-safe.
 class LiveView {
@@ -40,38 +40,38 @@ class LiveView {
     };
     explicit LiveView(Settings settings);
 
-    // An error: the text is no wish. Fields that cannot be had are in refused().
+    // An error if the text is no wish. refused() has the fields that cannot be had.
     Status on_wish(std::string_view json, std::uint32_t by);
-    // How many servers there are, at least 1.
+    // The number of servers, at least 1.
     void on_servers(std::size_t servers);
-    // How many look. A newcomer gets a new frame.
+    // The number of viewers. A newcomer gets a new frame.
     void on_viewers(std::uint32_t viewers);
 
     bool wants_frame() const;
-    // The next frame's order. Only when one is wanted.
+    // Only while a frame is wanted.
     FrameOrder next();
 
-    // The setup that is wished for and not in effect: to be changed before the next frame.
+    // The setup that is wished for and not in effect: change to it before the next frame.
     std::optional<LiveSetup> wanted_setup() const;
     void on_setup(const LiveSetup& setup);
-    // It was tried and cannot be had. What was in effect stays so, and the same wish is not tried again.
+    // The setup was tried and cannot be had. The one in effect stays, and the same wish is not tried again.
     void on_setup_refused(const LiveSetup& tried, const std::string& why);
 
     const LiveWish& wish() const { return wish_; }     // as asked for
     std::size_t servers() const;                       // that take part
     const LiveSetup& setup() const { return setup_; }  // in effect
-    // The wish's, or what is in effect where that cannot be had.
+    // The wish's setup; if it cannot be had, the one in effect.
     const LiveSetup& accepted_setup() const { return wish_.setup == refused_setup_ ? setup_ : wish_.setup; }
     Refusals refused() const;
     const LiveWish& start() const { return settings_.start; }
     const CameraNumbers& home() const { return settings_.start.camera; }
-    // The wish's; while a path plays, that of the newest order.
+    // The wish's camera; while a path plays, that of the newest order.
     const CameraNumbers& camera() const { return path_.empty() ? wish_.camera : shown_; }
     std::uint32_t viewers() const { return viewers_; }
     // Counts speed-up measurements; a new one makes the figures of the last one stale.
     std::size_t measurement() const { return measurement_; }
     bool measuring() const { return measured_servers_ > 0; }
-    // The wish asked for a trace since the last call.
+    // True if the wish has asked for a trace since the last call.
     bool take_trace();
 
   private:
@@ -94,7 +94,7 @@ class LiveView {
     std::size_t path_at_ = 0;
     std::optional<FrameOrder> second_;
     std::size_t measurement_ = 0;
-    std::size_t measured_servers_ = 0;  // being measured with so many; 0: no measurement
+    std::size_t measured_servers_ = 0;  // the number of servers being measured; 0: no measurement
     std::size_t measured_frames_ = 0;
 };
 

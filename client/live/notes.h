@@ -14,10 +14,9 @@
 
 namespace swath {
 
-// The texts that viewers get about a run: JSON objects, as docs/viewer.md lists them. Pure functions; any
-// thread.
+// Makes the notes to viewers about a run: JSON objects, as in docs/viewer.md. Pure functions; any thread.
 
-// A run as it stays.
+// The facts about a run that stay.
 struct SessionFacts {
     struct Server {
         std::string address;
@@ -30,22 +29,22 @@ struct SessionFacts {
     Rgb background{};
 };
 
-// A frame that is over: what was asked for, what was decided, what happened.
+// A frame that is over: its order, plan and timeline.
 struct FinishedFrame {
     FrameOrder order;
     FramePlan plan;
-    std::vector<ProjectedObject> projected;  // that the plan was made from
+    std::vector<ProjectedObject> projected;  // the plan was made from these
     FrameTimeline timeline;
 };
-// ... and what is made of it.
+// Conclusions from a finished frame.
 struct FrameFindings {
-    std::optional<Nanoseconds> interval;  // since the frame before was over; nothing after a rest
+    std::optional<Nanoseconds> interval;  // since the frame before was over; none after a rest
     std::vector<CriticalSpan> critical;
     std::optional<Prediction> prediction;
-    std::vector<Comparison> others;  // none in most frames
+    std::vector<Comparison> others;  // empty for most frames
 };
 
-// A note has no more objects than these; a viewer hears that there are too many.
+// A note has at most so many objects; beyond that a viewer is told that there are too many.
 inline constexpr std::size_t kMaxObjectsInPlan = 200'000;
 inline constexpr std::size_t kMaxBoxes = 50'000;
 

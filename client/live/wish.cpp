@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Each takes one field's value, or says what was expected.
+// Each takes one field's value, or says what it expects.
 
 Status take(const Json& value, bool& to) {
     if (!value.is_boolean()) return fail("true or false is expected");
@@ -74,7 +74,7 @@ Status take_camera(const Json& value, CameraNumbers& to) {
     return {};
 }
 
-// Both or none: a picture's size is one thing.
+// Takes both or none: a picture's size is one thing.
 Status take_size(const Json& wide, const Json& high, const WishLimits& limits, LiveWish& wish) {
     constexpr std::uint64_t kMost = 100'000;  // more than any window has
     int width = 0;
@@ -103,7 +103,7 @@ Result<Refusals> apply_wish(std::string_view text, std::uint32_t by, const WishL
         if (found == json.end()) return;
         if (const Status status = take_it(*found); !status) refused[name] = status.error().message;
     };
-    constexpr std::uint64_t kAny = std::uint64_t{1} << 53;  // what JavaScript can count to
+    constexpr std::uint64_t kAny = std::uint64_t{1} << 53;  // the largest count of JavaScript
     field("id", [&](const Json& value) { return take(value, 0, kAny, wish.id); });
     field("camera", [&](const Json& value) { return take_camera(value, wish.camera); });
     if (json.contains("width") && json.contains("height"))

@@ -32,11 +32,11 @@ struct LiveWish {
     int height = 960;
     Algorithm algorithm = Algorithm::kHybrid;
     std::optional<Algorithm> against;
-    std::optional<std::size_t> servers;  // none: all that there are
+    std::optional<std::size_t> servers;  // none: all
     LiveSetup setup;
     std::string path;  // "orbit", "random"; empty: `camera`
     bool paused = false;
-    // Counts: something is asked for when one rises.
+    // Counts: a larger one than before asks for something.
     std::uint64_t step = 0;
     std::uint64_t measure = 0;
     std::uint64_t trace = 0;
@@ -49,11 +49,11 @@ struct WishLimits {
     int max_height = 1600;
 };
 
-// Why fields of a wish are not had, by their names.
+// The reasons why fields of a wish cannot be had, by field name.
 using Refusals = std::map<std::string, std::string>;
 
-// Takes into `wish` what the text says; fields that are missing, or that it gives reasons against, stay as
-// they are. An error when the text is no JSON object at all. Nothing in it is trusted.
+// Takes the text's fields into `wish`; fields that are missing, or that it refuses with a reason, stay. An
+// error if the text is no JSON object. Trusts nothing in it.
 Result<Refusals> apply_wish(std::string_view json, std::uint32_t by, const WishLimits& limits,
                             LiveWish& wish);
 

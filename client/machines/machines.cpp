@@ -37,7 +37,7 @@ void Machines::start() {
 
 void Machines::stop() {
     over_ = true;
-    // Not from within its own call.
+    // Later, since this may be a call from it.
     boost::asio::post(io_, [discovery = std::shared_ptr<Discovery>(std::move(discovery_))] {});
     for (auto& [id, server] : servers_)
         if (server.connection) server.connection->close();
@@ -78,8 +78,6 @@ Status Machines::tell_display(const Message& message, Buffer body) {
     return sent ? Status{} : tl::unexpected(sent.error());
 }
 
-// --- finding and connecting
-
 void Machines::on_found(const Result<std::vector<Address>>& found) {
     const std::string source = to_string(job_.servers);
     const bool is_file = job_.servers.kind == ServerSource::Kind::kFile;
@@ -95,7 +93,7 @@ void Machines::on_found(const Result<std::vector<Address>>& found) {
     warned_.erase(source);
     const bool first = !std::exchange(found_, true);
     for (const Address& address : *found) find(address, first);
-    // Who is struck off a list that somebody keeps is not wanted any more.
+    // A server that is struck off somebody's list is not wanted any more.
     if (!is_file) return;
     for (const auto& [id, server] : servers_)
         if (std::count(found->begin(), found->end(), server.address) == 0) roster_.on_leave(id);
@@ -137,7 +135,7 @@ std::shared_ptr<Connection> Machines::open(boost::asio::ip::tcp::socket socket,
 
 void Machines::connect(ServerId id) {
     const Server& server = servers_.at(id);
-    // A number may be somebody else's by the time that an attempt has failed.
+    // By the time that an attempt fails, another server may have the number.
     async_connect(io_, server.address, starting() ? job_.patience : kNewcomersPatience,
                   [self = shared_from_this(), id,
                    address = server.address](Result<boost::asio::ip::tcp::socket> socket) {
@@ -190,11 +188,11 @@ bool Machines::needed(ServerId id) const {
 // A server, or the display, says so.
 void Machines::on_lost(const Lost& lost, const std::string& said_by) {
     const auto found = servers_.find(lost.server);
-    if (found == servers_.end()) return;  // it has been let go
+    if (found == servers_.end()) return;  // it has been released
     drop(lost.server, fmt::format("{} (says {})", lost.why, said_by));
 }
 
-// It is gone. Does the run need it?
+// The server is gone. If the run needs it, the run ends.
 void Machines::drop(ServerId id, const std::string& why) {
     const Server server = servers_.at(id);
     if (needed(id)) return lose(server.who, why);
@@ -210,8 +208,6 @@ void Machines::drop(ServerId id, const std::string& why) {
     }
     if (const Status status = advance(); !status) lose("the run", status.error().message);
 }
-
-// --- setting up
 
 Status Machines::on_display_hello(const Hello& hello) {
     if (hello.role != Role::kDisplay)
@@ -300,8 +296,6 @@ Status Machines::bring_up_to_date(ServerId id) {
     return advance();
 }
 
-// --- taking part
-
 Status Machines::advance() {
     if (over_) return {};
     if (const Status status = link(); !status) return status;
@@ -324,7 +318,7 @@ Status Machines::link() {
         return !entry.second.first || entry.second.ready;
     });
     if (!display_ready_ || (!started_ && !all_ready)) return {};
-    // With a name for the servers everybody is told addresses, as this machine resolves them.
+    // If the servers have a name, everybody is told addresses, as this machine resolves them.
     const bool resolved = job_.servers.kind == ServerSource::Kind::kName;
     for (const Roster::Link& link : roster_.link()) {
         Connect connect{resolved ? display_->peer() : to_string(job_.display), {}};
@@ -350,7 +344,7 @@ void Machines::on_over(const std::vector<ServerId>& servers) {
 }
 
 void Machines::release() {
-    // Those that are asked for a change answer first.
+    // Servers that are asked for a change answer first.
     if (over_ || change_.under_way()) return;
     for (const ServerId id : roster_.released()) {
         const Server& server = servers_.at(id);

@@ -19,11 +19,11 @@
 
 namespace swath {
 
-// The display and the servers of a run: finds and connects to them, sets them up, links them to each other,
-// lets those go that leave, and passes on what they say about frames. A run starts when the display and the
-// servers that were found first are there; those that come later are brought up beside it. Whatever befalls a
-// server that takes no part yet is a warning, and it is tried again; a lost member or display is the run's
-// end. On the io_context's thread.
+// The display and the servers of a run. It finds them, connects to them, sets them up, links servers to each
+// other, releases those that leave, and passes on their messages about frames. A run starts when the display
+// and the servers that were found first are there; later ones are brought up beside it. A fault of a server
+// that takes no part yet is a warning, and the server is tried again; a lost member or display ends the run.
+// On the io_context's thread.
 class Machines : public std::enable_shared_from_this<Machines> {
   public:
     struct Job {
@@ -42,28 +42,28 @@ class Machines : public std::enable_shared_from_this<Machines> {
     };
     // Nothing is called any more after on_lost or stop().
     struct Handlers {
-        // Everybody is there. The address of the display's page, if it has one.
+        // All are there. `page` is the address of the display's page, if it has one.
         std::function<Status(const std::string& page)> on_started;
-        // Others take part from now on.
+        // The members have changed.
         std::function<void()> on_members;
-        // About frames, from a member and from the display. An error blames the sender.
+        // Messages about frames, from a member and from the display. An error blames the sender.
         std::function<Status(ServerId, Message&&, Buffer&&)> on_server;
         std::function<Status(Message&&, Buffer&&)> on_display;
         std::function<void(const std::string& who, const std::string& why)> on_lost;
     };
     Machines(boost::asio::io_context& io, Job job, const Clock& clock, Handlers handlers);
     void start();
-    // Says goodbye to all of them: with a Bye, or with why.
+    // Ends all connections: with a Bye, or with the reason.
     void finish(const Status& why);
-    // At once.
+    // Ends all connections at once.
     void stop();
 
-    // Those that may take part in the next frame; their places here are those in a plan.
+    // The servers that may take part in the next frame; the index here is the rank in a plan.
     const std::vector<ServerId>& members() const { return members_; }
     const std::string& who(ServerId server) const { return servers_.at(server).who; }  // for people
     const Address& address(ServerId server) const { return servers_.at(server).address; }
     const std::string& renderer(ServerId server) const { return servers_.at(server).renderer; }  // described
-    // What to add to its times to get ours.
+    // The time to add to the server's to get ours.
     Nanoseconds clock_offset(ServerId server) const;
     Nanoseconds display_clock_offset() const { return display_->clock_offset(); }
 
@@ -129,11 +129,11 @@ class Machines : public std::enable_shared_from_this<Machines> {
     Roster roster_;
     std::map<ServerId, Server> servers_;
     std::vector<ServerId> members_;
-    std::map<std::string, Nanoseconds> left_;    // by address: when it was let go
+    std::map<std::string, Nanoseconds> left_;    // by address: when it was released
     std::map<std::string, std::string> warned_;  // by address: the newest warning, which is not repeated
     std::shared_ptr<Connection> display_;
     bool display_ready_ = false;
-    std::string page_;  // where the display serves it
+    std::string page_;  // the display's
 
     // A change of drawing.
     SetupChange change_;

@@ -8,8 +8,8 @@
 namespace swath {
 
 DrawThread::~DrawThread() {
-    // The renderer dies where it lived. (The destructor of thread_ drops what is queued, so wait for this
-    // one.)
+    // The renderer must be destroyed on its thread. (The destructor of thread_ drops queued tasks, so waits
+    // here for this one.)
     std::mutex mutex;
     std::condition_variable gone;
     bool done = false;
@@ -107,7 +107,8 @@ Drawn DrawThread::draw_now(DrawJob job) {
     if (!job.content.empty()) out.status = renderer_->draw(out.list.runs, job.view, job.content);
     timer.end(Phase::kRender);
 
-    // The frame covers what was drawn and what will be received; the latter starts as background.
+    // The frame covers the content and the final region; the part that only comes from others starts as
+    // background.
     Rect cover = job.content;
     for (const Rect& r : job.final_region) cover = bounding(cover, r);
     job.pixels.reshape(cover);

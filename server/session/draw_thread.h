@@ -17,13 +17,13 @@
 
 namespace swath {
 
-// What drawing a frame needs and gives.
+// The input of drawing a frame.
 struct DrawJob {
     View view;
     std::vector<ObjectId> group;
     Rect content;
     Region final_region;
-    PixelFrame pixels;  // in: a used one, for its memory; out: content and final region
+    PixelFrame pixels;  // a used one, for its memory
 };
 struct Drawn {
     PixelFrame pixels;
@@ -36,18 +36,18 @@ struct Loaded {
     std::size_t triangles = 0;
     std::string renderer;
     Drawing drawing;      // in effect
-    std::string refused;  // why a reconfiguration was not done; the rest is as it was
+    std::string refused;  // why a reconfiguration failed; the rest is then as before
 };
 
-// How a server gets its renderer; benchmarks and tests bring their own.
+// Makes a server's renderer; benchmarks and tests bring their own.
 using RendererFactory =
     std::function<Result<std::unique_ptr<Renderer>>(const RendererSetup&, const ObjectSet&)>;
 
-// The thread that owns the scene and its renderer: the GL context is bound to it. Results go to callbacks ON
-// THAT THREAD, which post them on. Destroying it waits for the job in progress.
+// The thread that owns the scene and its renderer: the GL context is bound to it. It calls callbacks ON THIS
+// THREAD, and they post the results on. The destructor waits for the job in progress.
 class DrawThread {
   public:
-    // So many threads cull together and cast rays, this one among them; at least 1.
+    // So many threads cull and cast rays, this one among them; at least 1.
     DrawThread(RendererFactory factory, std::size_t threads, const Clock& clock)
         : factory_(std::move(factory)), clock_(clock), threads_(threads) {}
     ~DrawThread();

@@ -42,7 +42,7 @@ void ServerSession::resume(const std::function<Status()>& rest) {
     if (!status) give_up(status.error());
 }
 
-// The session cannot go on: the client is told why, and its connection's end ends the session.
+// The session cannot go on: tells the client why. The end of its connection ends the session.
 void ServerSession::give_up(const Error& error) {
     if (draw_thread_) client_->fail_with(error);
 }
@@ -178,7 +178,7 @@ Status ServerSession::on_reconfigure(const Reconfigure& reconfigure) {
     return {};
 }
 
-// --- the mesh of connections: every server connects to the display and to the servers that were there before
+// Connections: every server connects to the display and to the servers that were there before.
 
 Status ServerSession::on_connect(const Connect& to) {
     if (!ready_ || connecting_) return fail("Connect is not expected now");
@@ -233,14 +233,12 @@ Status ServerSession::on_peer(const std::shared_ptr<Connection>& connection, con
     return {};
 }
 
-// Who has read our Hello takes our pixels, and knows that we take theirs.
+// A peer that has read our Hello takes our pixels, and knows that we take its.
 void ServerSession::on_heard() {
     if (!draw_thread_ || --unheard_ > 0) return;
     connected_ = true;
     tell_client(Connected{});
 }
-
-// --- frames
 
 Status ServerSession::check(const RenderFrame& task) const {
     if (!connected_) return fail("RenderFrame before Connected");

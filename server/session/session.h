@@ -14,9 +14,9 @@
 
 namespace swath {
 
-// One client's run on one server: set-up, connections to peers and display, and the frames. It does what
-// FrameSwap decides. On the io_context's thread; callbacks of work in progress keep it alive, and after
-// stop() they do nothing.
+// A client's run on a server: set-up, connections to peers and display, and the frames. It does what
+// FrameSwap decides. On the io_context's thread; callbacks of work in progress keep it alive, and do nothing
+// after stop().
 class ServerSession final : public Session, public std::enable_shared_from_this<ServerSession> {
   public:
     ServerSession(boost::asio::io_context& io, const ServerOptions& options, const Clock& clock,
@@ -24,7 +24,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
 
     std::uint64_t id() const override { return setup_.session; }
     ServerId server() const override { return setup_.server; }
-    // Of a server that joined later.
+    // A server that joined later connects.
     Status on_peer(const std::shared_ptr<Connection>& connection, const Hello& hello) override;
     Status on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) override;
     bool on_closed(const std::shared_ptr<Connection>& connection, const Status& why) override;
@@ -46,7 +46,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     void load(Mesh mesh);
     Status on_loaded(const Result<Loaded>& loaded);
     Status on_reconfigure(const Reconfigure& reconfigure);
-    // Of load() and reconfigure(): back to this thread.
+    // The callback of load() and reconfigure(), which comes back to this thread.
     std::function<void(Result<Loaded>)> when_loaded();
     Status on_connect(const Connect& connect);
     void connect(const std::string& address, Role role, ServerId id);
@@ -82,8 +82,8 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     bool reconfiguring_ = false;
     bool connecting_ = false;
     bool connected_ = false;
-    std::size_t unheard_ = 0;  // of those it connects to: who has not read our Hello
-    Buffer blob_;              // of a model that the client sends
+    std::size_t unheard_ = 0;  // servers it connects to that have not read our Hello
+    Buffer blob_;              // the model, if the client sends it
     std::size_t objects_ = 0;
     std::map<ServerId, std::shared_ptr<Connection>> peers_;  // other servers
     std::shared_ptr<Connection> display_;
