@@ -8,7 +8,9 @@ target_compile_options(swath_options INTERFACE
   -ffp-contract=off
   # A failed CHECK names a file of the tree, not the folder in which somebody built it.
   -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
-target_compile_definitions(swath_options INTERFACE GLM_FORCE_CTOR_INIT GLM_ENABLE_EXPERIMENTAL)
+target_compile_definitions(swath_options INTERFACE GLM_FORCE_CTOR_INIT GLM_ENABLE_EXPERIMENTAL
+  # Checks that are dear (common/base/check.h).
+  $<$<OR:$<CONFIG:Debug>,$<BOOL:${SWATH_SANITIZE}>>:SWATH_DCHECK>)
 target_link_libraries(swath_options INTERFACE glm::glm fmt::fmt Threads::Threads)
 if(SWATH_WERROR)
   target_compile_options(swath_options INTERFACE -Werror)

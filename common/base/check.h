@@ -81,3 +81,13 @@ struct Start {
         if (!swath_check_outcome.ok)                                                                    \
             ::swath::check_detail::failed(#expression, __FILE__, __LINE__, swath_check_outcome.values); \
     } while (false)
+
+// The same in debug and sanitizer builds only, where a CHECK would cost too much: of every pixel, say.
+#ifdef SWATH_DCHECK
+#define DCHECK(expression) CHECK(expression)
+#else
+#define DCHECK(expression)            \
+    do {                              \
+        if (false) CHECK(expression); \
+    } while (false)
+#endif

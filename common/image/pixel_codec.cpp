@@ -60,7 +60,7 @@ std::uint32_t scan_spans(const PixelFrame& frame, const Region& region, std::vec
     for (const Rect& rect : region) {
         CHECK(frame.rect().contains(rect) == true);
         for (int y = rect.y0; y < rect.y1; ++y) {
-            const float* row = frame.depth(rect.x0, y);
+            const float* row = frame.depth(rect.x0, y, rect.width());
             row_spans.clear();
             std::uint32_t count = 0;
             int done = 0;
@@ -183,10 +183,10 @@ BodySizes encode_swath(const PixelFrame& frame, const Region& region, Buffer& bo
     };
     for (const Place& place : places) {
         const std::size_t bytes = sizeof(float) * static_cast<std::size_t>(place.length);
-        std::memcpy(depth, frame.depth(place.x, place.y), bytes);
+        std::memcpy(depth, frame.depth(place.x, place.y, place.length), bytes);
         depth += bytes;
-        rgb = pack_rgb(frame.colour(place.x, place.y), place.length, rgb);
-        const ObjectId* id = frame.id(place.x, place.y);
+        rgb = pack_rgb(frame.colour(place.x, place.y, place.length), place.length, rgb);
+        const ObjectId* id = frame.id(place.x, place.y, place.length);
         for (int i = 0; i < place.length; ++i) {
             if (id[i] != current || run == 0) {
                 end_run();
@@ -210,7 +210,7 @@ BodySizes encode_tile(const PixelFrame& frame, const Region& region, Buffer& bod
     std::uint8_t* out = body.data();
     BodySizes sizes;
     sizes.pixels = scan_spans(frame, region, spans, [&](int x, int y, int length) {
-        out = pack_rgb(frame.colour(x, y), length, out);
+        out = pack_rgb(frame.colour(x, y, length), length, out);
     });
     sizes.span_bytes = static_cast<std::uint32_t>(spans.size());
     body.resize(kTilePixelBytes * sizes.pixels);
@@ -260,8 +260,8 @@ Status composite_swath(std::span<const std::uint8_t> body, const BodySizes& size
                           for (std::size_t i = 0; i < n; ++i, from += 3)
                               colour[i] = 0xff000000u | std::uint32_t{from[2]} << 16 |
                                           std::uint32_t{from[1]} << 8 | from[0];
-                          composite_pixels(n, colour.data(), depth + at, &ids[at], frame.colour(x, y),
-                                           frame.depth(x, y), frame.id(x, y));
+                          composite_pixels(n, colour.data(), depth + at, &ids[at], frame.colour(x, y, length),
+                                           frame.depth(x, y, length), frame.id(x, y, length));
                       });
 }
 
@@ -297,8 +297,8 @@ Picture to_picture(const PixelFrame& frame, const Rgb& background) {
     fill(picture, rect.width(), rect.height(), background);
     std::uint8_t* out = picture.rgb.data();
     for (int y = rect.y0; y < rect.y1; ++y) {
-        const std::uint32_t* colour = frame.colour(rect.x0, y);
-        const float* depth = frame.depth(rect.x0, y);
+        const std::uint32_t* colour = frame.colour(rect.x0, y, rect.width());
+        const float* depth = frame.depth(rect.x0, y, rect.width());
         for (int x = 0; x < rect.width(); ++x, out += 3)
             if (active(depth[x])) std::memcpy(out, colour + x, 3);
     }

@@ -1,6 +1,7 @@
 #include "common/image/pixel_frame.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace swath {
 
@@ -17,8 +18,20 @@ void PixelFrame::reshape(const Rect& rect) {
 void PixelFrame::clear(const Rect& rect) {
     const Rect inside = intersect(rect, rect_);
     for (int y = inside.y0; y < inside.y1; ++y) {
-        float* row = depth(inside.x0, y);
+        float* row = depth(inside.x0, y, inside.width());
         std::fill(row, row + inside.width(), kFarDepth);
+    }
+}
+
+void PixelFrame::copy(const PixelFrame& from, const Rect& rect) {
+    CHECK(rect_.contains(rect) == true);
+    CHECK(from.rect_.contains(rect) == true);
+    const int n = rect.width();
+    const std::size_t bytes = 4 * static_cast<std::size_t>(n);
+    for (int y = rect.y0; y < rect.y1 && n > 0; ++y) {
+        std::memcpy(colour(rect.x0, y, n), from.colour(rect.x0, y, n), bytes);
+        std::memcpy(depth(rect.x0, y, n), from.depth(rect.x0, y, n), bytes);
+        std::memcpy(id(rect.x0, y, n), from.id(rect.x0, y, n), bytes);
     }
 }
 

@@ -37,21 +37,23 @@ class PixelFrame {
     void reshape(const Rect& rect);
     const Rect& rect() const { return rect_; }
 
-    // Pixel (x, y) of the screen; the rest of its row follows. (x, y) lies in rect().
-    std::uint32_t* colour(int x, int y) {
-        return colour_.get() + offset(x, y);
-    }  // R in the low byte, then G, B, A
-    float* depth(int x, int y) { return depth_.get() + offset(x, y); }
-    ObjectId* id(int x, int y) { return id_.get() + offset(x, y); }
-    const std::uint32_t* colour(int x, int y) const { return colour_.get() + offset(x, y); }
-    const float* depth(int x, int y) const { return depth_.get() + offset(x, y); }
-    const ObjectId* id(int x, int y) const { return id_.get() + offset(x, y); }
+    // `n` pixels of a row, from (x, y) of the screen on. All lie in rect(), which is a DCHECK.
+    // A colour has R in its low byte, then G, B, A.
+    std::uint32_t* colour(int x, int y, int n = 1) { return colour_.get() + offset(x, y, n); }
+    float* depth(int x, int y, int n = 1) { return depth_.get() + offset(x, y, n); }
+    ObjectId* id(int x, int y, int n = 1) { return id_.get() + offset(x, y, n); }
+    const std::uint32_t* colour(int x, int y, int n = 1) const { return colour_.get() + offset(x, y, n); }
+    const float* depth(int x, int y, int n = 1) const { return depth_.get() + offset(x, y, n); }
+    const ObjectId* id(int x, int y, int n = 1) const { return id_.get() + offset(x, y, n); }
 
     // Makes the pixels of `rect` background.
     void clear(const Rect& rect);
+    // Takes the pixels of `rect` from another frame. CHECKs that both contain it.
+    void copy(const PixelFrame& from, const Rect& rect);
 
   private:
-    std::size_t offset(int x, int y) const {
+    std::size_t offset(int x, int y, [[maybe_unused]] int n) const {
+        DCHECK(rect_.contains({x, y, x + n, y + 1}) == true);
         return static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
                static_cast<std::size_t>(x - rect_.x0);
     }

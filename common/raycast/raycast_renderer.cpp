@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <optional>
 
 #include "common/base/check.h"
@@ -63,15 +62,7 @@ class RaycastRenderer final : public Renderer {
     }
 
     Status read(const Rect& rect, PixelFrame& frame) override {
-        if (rect.empty()) return {};
-        CHECK(frame.rect().contains(rect) == true);
-        CHECK(pixels_.rect().contains(rect) == true);
-        const std::size_t bytes = 4 * static_cast<std::size_t>(rect.width());
-        for (int y = rect.y0; y < rect.y1; ++y) {
-            std::memcpy(frame.colour(rect.x0, y), pixels_.colour(rect.x0, y), bytes);
-            std::memcpy(frame.depth(rect.x0, y), pixels_.depth(rect.x0, y), bytes);
-            std::memcpy(frame.id(rect.x0, y), pixels_.id(rect.x0, y), bytes);
-        }
+        frame.copy(pixels_, rect);
         return {};
     }
 

@@ -169,6 +169,7 @@ Status GlRenderer::resize(int width, int height) {
 }
 
 Status GlRenderer::draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) {
+    drawn_ = {};
     if (view.width != width_ || view.height != height_) SWATH_TRY_VOID(resize(view.width, view.height));
     CHECK(view.viewport().contains(rect) == true);
     gl_.Scissor(rect.x0, rect.y0, rect.width(), rect.height());
@@ -185,6 +186,7 @@ Status GlRenderer::draw(std::span<const DrawRun> runs, const View& view, const R
         begin = end;
     }
     gl_.Finish();
+    drawn_ = rect;
     return check("drawing");
 }
 
@@ -213,7 +215,7 @@ void GlRenderer::draw_object(std::span<const DrawRun> runs) {
 Status GlRenderer::read(const Rect& rect, PixelFrame& frame) {
     if (rect.empty()) return {};
     CHECK(frame.rect().contains(rect) == true);
-    CHECK((Rect{0, 0, width_, height_}.contains(rect)) == true);
+    CHECK(drawn_.contains(rect) == true);
     gl_.PixelStorei(GL_PACK_ROW_LENGTH, frame.rect().width());
     const auto pixels = [&](GLenum format, GLenum type, void* to) {
         gl_.ReadPixels(rect.x0, rect.y0, rect.width(), rect.height(), format, type, to);

@@ -35,6 +35,7 @@ class GlRenderer final : public Renderer {
     GlFunctions gl_;
     int width_ = 0;
     int height_ = 0;
+    Rect drawn_;  // of the framebuffer, by the last draw
     GLuint colour_buffer_ = 0;
     GLuint id_buffer_ = 0;
     GLuint depth_buffer_ = 0;

@@ -35,7 +35,8 @@ class Renderer {
     // smaller id. Errors name the limit or what the device lacks.
     virtual Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) = 0;
 
-    // Writes colour, depth and id of `rect`, as drawn last, into `frame`, which must contain it.
+    // Writes colour, depth and id of `rect` into `frame`. CHECKs that both the last draw's rectangle and the
+    // frame contain it.
     virtual Status read(const Rect& rect, PixelFrame& frame) = 0;
 
     // Says for people what draws: library, version, limits.

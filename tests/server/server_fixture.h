@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/check.h"
 #include "common/scene/model_blob.h"
 #include "server/session/server.h"
 #include "tests/support/models.h"
@@ -26,6 +27,8 @@ class FakeRenderer final : public Renderer {
         return {};
     }
     Status read(const Rect& rect, PixelFrame& frame) override {
+        CHECK(rect_.contains(rect) == true);
+        CHECK(frame.rect().contains(rect) == true);
         for (int y = rect.y0; y < rect.y1; ++y)
             for (int x = rect.x0; x < rect.x1; ++x) {
                 *frame.depth(x, y) = objects_.empty() ? kFarDepth : 0.5f;

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "tests/common/image/frames.h"
 #include "tests/server/server_fixture.h"
 
 // Frames: what a task sends out, and what clients and servers may not send.
@@ -11,12 +12,14 @@ namespace {
 
 using testing::MatchesRegex;
 
-// The pixels of another server: one flat rectangle.
+// The pixels of another server: flat rectangles.
 struct Pixels {
     BodySizes sizes;
     Buffer body;
 };
-Pixels rectangle(const Rect& rect, float depth, ObjectId id, std::uint32_t colour) {
+Pixels rectangles(const Region& region, float depth, ObjectId id, std::uint32_t colour) {
+    Rect rect;
+    for (const Rect& r : region) rect = bounding(rect, r);
     PixelFrame frame;
     frame.reshape(rect);
     for (int y = rect.y0; y < rect.y1; ++y)
@@ -26,8 +29,11 @@ Pixels rectangle(const Rect& rect, float depth, ObjectId id, std::uint32_t colou
             *frame.id(x, y) = id;
         }
     Pixels made;
-    made.sizes = encode_swath(frame, {rect}, made.body);
+    made.sizes = encode_swath(frame, region, made.body);
     return made;
+}
+Pixels rectangle(const Rect& rect, float depth, ObjectId id, std::uint32_t colour) {
+    return rectangles({rect}, depth, id, colour);
 }
 
 class ServerFrames : public ServerTest {
@@ -140,6 +146,47 @@ TEST_F(ServerFrames, OverlapWithTheOnesBefore) {
     EXPECT_EQ(client->expect<ServerReport>().frame, 1u);
     send_swath(0, rectangle({2, 0, 4, 4}, 0.25f, 1, 7));
     EXPECT_EQ(client->expect<ServerReport>().frame, 0u);
+}
+
+// In debug and sanitizer builds every pixel that is touched is checked against the frame that it is in.
+TEST_F(ServerFrames, KeepToTheirPixelsWhateverTheRegions) {
+    const auto client = connected_client(0, 2);
+    Random random(3);
+    const auto some_rect = [&] {
+        const int x = below(random, 8);
+        const int y = below(random, 4);
+        return Rect{x, y, x + 1 + below(random, 8 - x), y + 1 + below(random, 4 - y)};
+    };
+    for (FrameNumber number = 0; number < 100; ++number) {
+        RenderFrame made = task(number);
+        made.content = below(random, 5) == 0 ? Rect{} : some_rect();
+        made.final_region = below(random, 5) == 0 ? Region{} : random_region(some_rect(), random);
+        Rect cover = made.content;
+        for (const Rect& r : made.final_region) cover = bounding(cover, r);
+        const Region outgoing = made.content.empty() ? Region{} : random_region(made.content, random);
+        const Region incoming = cover.empty() ? Region{} : random_region(cover, random);
+        if (!outgoing.empty()) made.outgoing = {{server_id(1), outgoing}};
+        if (!incoming.empty()) made.incoming = {{server_id(1), incoming}};
+        client->send(made);
+        if (!incoming.empty()) send_swath(number, rectangles(incoming, 0.25f, 0, 7));
+
+        ServerReport report = client->expect<ServerReport>();
+        ASSERT_EQ(report.frame, number);
+        const bool draws = report[Counter::kObjects] > 0;  // nothing covers some contents
+        if (!outgoing.empty()) {
+            const std::uint32_t sent = others_[1]->expect<SwathPixels>().sizes.pixels;
+            ASSERT_EQ(sent, draws ? area(outgoing) : 0) << number;
+        }
+        if (made.final_region.empty()) continue;
+        std::uint32_t active = 0;
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 8; ++x)
+                active += inside(made.final_region, x, y) &&
+                                  ((draws && inside({made.content}, x, y)) || inside(incoming, x, y))
+                              ? 1u
+                              : 0u;
+        ASSERT_EQ(display_->expect<TilePixels>().sizes.pixels, active) << number;
+    }
 }
 
 TEST_F(ServerFrames, OfImpossibleTasksAreRefused) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "common/base/check.h"
 #include "common/scene/procedural.h"
 
 namespace swath::test {
@@ -53,6 +56,24 @@ void expect_same(const PixelFrame& a, const PixelFrame& b, const Rect& rect) {
     const Difference found = compare(a, b, rect);
     EXPECT_EQ(found.pixels, 0);
     EXPECT_GT(found.active, 0);
+}
+
+void expect_reads_inside_only(Renderer& renderer, std::span<const DrawRun> runs, const View& view) {
+    const Rect part{30, 20, 61, 41};
+    const std::array outside{Rect{29, 20, 61, 41}, Rect{30, 19, 61, 41}, Rect{30, 20, 62, 41},
+                             Rect{30, 20, 61, 42}, view.viewport()};
+    PixelFrame frame;
+    frame.reshape({-100, -100, 200, 200});
+    EXPECT_THROW(static_cast<void>(renderer.read(part, frame)), CheckFailed);  // before anything is drawn
+    ASSERT_TRUE(renderer.draw(runs, view, part).has_value());
+    for (const Rect& rect : outside)
+        EXPECT_THROW(static_cast<void>(renderer.read(rect, frame)), CheckFailed) << rect;
+    ASSERT_TRUE(renderer.draw(runs, view, view.viewport()).has_value());
+    frame.reshape(part);
+    for (const Rect& rect : outside)
+        EXPECT_THROW(static_cast<void>(renderer.read(rect, frame)), CheckFailed) << rect;
+    EXPECT_TRUE(renderer.read(part, frame).has_value());
+    EXPECT_TRUE(renderer.read({}, frame).has_value());
 }
 
 }  // namespace swath::test

@@ -26,4 +26,7 @@ Difference compare(const PixelFrame& a, const PixelFrame& b, const Rect& rect);
 // Expects that they are equal, and not empty.
 void expect_same(const PixelFrame& a, const PixelFrame& b, const Rect& rect);
 
+// Read-back stays inside of what was drawn and of the frame, to the pixel.
+void expect_reads_inside_only(Renderer& renderer, std::span<const DrawRun> runs, const View& view);
+
 }  // namespace swath::test

@@ -98,5 +98,17 @@ TEST(Check, IsOneStatement) {
         CHECK(skip);
 }
 
+TEST(DebugCheck, IsACheckInDebugAndSanitizerBuildsAndNothingInOthers) {
+    int calls = 0;
+    const std::string message = complaint([&] { DCHECK(++calls == 2); });
+#ifdef SWATH_DCHECK
+    EXPECT_THAT(message, HasSubstr("failed: 1 == 2"));
+    EXPECT_EQ(calls, 1);
+#else
+    EXPECT_EQ(message, "");
+    EXPECT_EQ(calls, 0);
+#endif
+}
+
 }  // namespace
 }  // namespace swath

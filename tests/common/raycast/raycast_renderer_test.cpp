@@ -182,6 +182,12 @@ TEST(RaycastRenderer, ReadsAPartIntoALargerFrameAndLeavesTheRestAlone) {
         EXPECT_EQ(*frame.depth(x, y), kFarDepth);
 }
 
+TEST(RaycastRenderer, ReadsNothingThatItHasNotDrawnOrThatTheFrameDoesNotHold) {
+    const ObjectSet scene = test::builtin_scene("knot", 2000);
+    for (const How& how : kHows)
+        test::expect_reads_inside_only(*make(scene, how), all_of(scene), view_of(scene));
+}
+
 TEST(RaycastRenderer, DoesNotDrawARunOutsideOfItsObject) {
     const ObjectSet scene = test::builtin_scene("knot", 2000);
     const View view = view_of(scene);

@@ -146,6 +146,10 @@ TEST_F(RendererTest, ReadsAPartIntoALargerFrameAndLeavesTheRestAlone) {
     EXPECT_EQ(*frame.depth(60, 41), kFarDepth);
 }
 
+TEST_F(RendererTest, ReadsNothingThatItHasNotDrawnOrThatTheFrameDoesNotHold) {
+    test::expect_reads_inside_only(*renderer_, all_, view_);
+}
+
 TEST_F(RendererTest, ForgetsTheFrameBefore) {
     const PixelFrame first = draw(*renderer_, all_, view_, view_.viewport());
     draw(*renderer_, all_, view_of(scene_, 40, 200), {0, 0, 40, 200});
