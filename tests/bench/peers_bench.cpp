@@ -8,11 +8,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <random>
 
 #include "client/cluster/run_cluster.h"
@@ -23,6 +21,7 @@
 #include "common/scene/model_blob.h"
 #include "display/session/display.h"
 #include "server/session/server.h"
+#include "tests/bench/cached_renderer.h"
 #include "tests/bench/figures.h"
 
 namespace swath::bench {
@@ -59,37 +58,6 @@ std::vector<Camera> peers_orbit(const Box& bounds) {
     }
     return cameras;
 }
-
-// Draws a view once and then returns the same pixels: this leaves a server only swap, composite and gather.
-class CachedRenderer final : public Renderer {
-  public:
-    explicit CachedRenderer(std::unique_ptr<Renderer> renderer) : renderer_(std::move(renderer)) {}
-
-    Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override {
-        key_.assign(reinterpret_cast<const char*>(&view.clip_from_model), sizeof view.clip_from_model);
-        return frames_.contains(key_) ? Status{} : renderer_->draw(runs, view, rect);
-    }
-    Status read(const Rect& rect, PixelFrame& frame) override {
-        PixelFrame& cached = frames_[key_];
-        if (cached.rect().empty()) {
-            cached.reshape(rect);
-            SWATH_TRY_VOID(renderer_->read(rect, cached));
-        }
-        for (int y = rect.y0; y < rect.y1; ++y) {
-            const std::size_t bytes = 4 * static_cast<std::size_t>(rect.width());
-            std::memcpy(frame.colour(rect.x0, y), cached.colour(rect.x0, y), bytes);
-            std::memcpy(frame.depth(rect.x0, y), cached.depth(rect.x0, y), bytes);
-            std::memcpy(frame.id(rect.x0, y), cached.id(rect.x0, y), bytes);
-        }
-        return {};
-    }
-    std::string description() const override { return "cached " + renderer_->description(); }
-
-  private:
-    std::unique_ptr<Renderer> renderer_;
-    std::string key_;
-    std::map<std::string, PixelFrame> frames_;
-};
 
 // A child process that runs one of our servers or displays, and ends with this object.
 class Child {
