@@ -34,12 +34,6 @@ inline float p_vertex_distance(const glm::vec4& plane, const Box& box) {
                           plane.z >= 0 ? box.max.z : box.min.z);
 }
 
-// The plane_distance of the nearest corner (its n-vertex). If it is not negative, the whole box is inside.
-inline float n_vertex_distance(const glm::vec4& plane, const Box& box) {
-    return plane_distance(plane, plane.x >= 0 ? box.min.x : box.max.x, plane.y >= 0 ? box.min.y : box.max.y,
-                          plane.z >= 0 ? box.min.z : box.max.z);
-}
-
 // True only if no part of the box is in the frustum. The test is conservative: it is false for some boxes
 // outside near an edge. A plane that is NaN drops nothing.
 inline bool outside(const Frustum& frustum, const Box& box) {

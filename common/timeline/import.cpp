@@ -5,13 +5,11 @@
 #include <optional>
 
 #include "common/base/csv.h"
-#include "common/base/file.h"
 #include "common/timeline/export.h"
 
 namespace swath {
 namespace {
 
-constexpr std::uint64_t kMaxFileBytes = 512ull << 20;
 constexpr double kMaxMs = 1e10;  // four months, in which a double still tells nanoseconds apart
 
 enum Field : std::size_t { kFrame, kMachine, kKind, kName, kBegin, kEnd, kCpu, kValue };
@@ -118,11 +116,6 @@ Result<std::vector<FrameTimeline>> parse_timeline(std::string_view csv, std::str
         if (const Status taken = reader.take(records[i]); !taken)
             return fail_in(fmt::format("{}:{}", source, records[i].line), taken.error());
     return reader.frames();
-}
-
-Result<std::vector<FrameTimeline>> read_timeline(const std::filesystem::path& file) {
-    SWATH_TRY(const Buffer bytes, read_file(file, kMaxFileBytes));
-    return parse_timeline({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
 }  // namespace swath

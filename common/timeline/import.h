@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +10,5 @@ namespace swath {
 // Reads what to_csv() wrote: the same frames with the earliest span at 0, without machines that had neither
 // spans nor counts. Trusts nothing in the text. Errors name the source, the line and the field.
 Result<std::vector<FrameTimeline>> parse_timeline(std::string_view csv, std::string_view source);
-Result<std::vector<FrameTimeline>> read_timeline(const std::filesystem::path& file);
 
 }  // namespace swath

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/published/octree/sah_cost.h"
 #include "common/published/octree/sah_kd_tree.h"
 #include "tests/bench/octree_bench.h"
 #include "tests/bench/plots.h"

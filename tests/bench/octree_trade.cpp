@@ -4,6 +4,7 @@
 
 #include "common/base/csv.h"
 #include "common/base/file.h"
+#include "common/published/octree/sah_cost.h"
 #include "common/published/octree/sah_kd_tree.h"
 #include "tests/bench/octree_bench.h"
 #include "tests/bench/plots.h"

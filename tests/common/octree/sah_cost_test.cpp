@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/octree/sah/sah_builder.h"
+#include "common/published/octree/sah_cost.h"
 #include "common/published/octree/sah_kd_tree.h"
 #include "common/scene/model.h"
 #include "tests/support/models.h"

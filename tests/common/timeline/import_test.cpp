@@ -73,9 +73,5 @@ TEST(ParseTimeline, NamesTheLineAndTheFieldOfWhatIsWrong) {
               "'frame,machine,kind,name,begin_ms,end_ms,cpu_ms,value'");
 }
 
-TEST(ReadTimeline, NamesAFileThatIsNotThere) {
-    EXPECT_EQ(read_timeline("/no/such.csv").error().message, "/no/such.csv: No such file or directory");
-}
-
 }  // namespace
 }  // namespace swath

@@ -1,4 +1,4 @@
-#include "common/octree/sah/sah_tree.h"
+#include "common/published/octree/sah_cost.h"
 
 namespace swath {
 namespace {
