@@ -1,14 +1,23 @@
+#include <spdlog/spdlog.h>
+
 #include "client/run.h"
 #include "common/base/allocator.h"
+#include "common/renderers/make_renderer.h"
 
 int main(int argc, char** argv) {
     using namespace swath;
-    const auto options = parse_client_options(argc, argv);
+    auto options = parse_client_options(argc, argv);
     if (!options) return options.error();
     start_log("swath-client", options->program);
     StopSignals signals(kExitFailed, true);
     tune_allocator();
-    if (options->single) set_raster_threads(options->threads);
+    // The client of a cluster does not draw; it only looks what works.
+    set_raster_threads(options->single ? options->threads : 0);
+    if (options->renderers.empty()) {
+        const DefaultRenderer found = default_renderer();
+        spdlog::info("drawing with {} ({})", name_of(found.kind), found.description);
+        options->renderers = {found.kind};
+    }
     const auto status = run_client(*options, signals);
     return status ? kExitDone : run_error(status.error());
 }

@@ -55,7 +55,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     std::string background = "101218";
     std::string light;
     std::string algorithm = "hybrid";
-    std::string renderer = "osmesa";
+    std::string renderer;
     std::string cull = "wide";
     std::string objects_by = "uniform";
     std::string format = "png";
@@ -98,9 +98,10 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->needs(viewer);
     app.add_option("--algorithm", algorithm, "how to divide a frame: " + algorithm_names())
         ->capture_default_str();
-    app.add_option("--renderer", renderer,
-                   "osmesa, egl (surfaceless) or raycast; with commas between, for the servers in turn")
-        ->capture_default_str();
+    auto* draw_with =
+        app.add_option("--renderer", renderer,
+                       "osmesa, egl (surfaceless) or raycast; with commas between, for the servers in turn\n"
+                       "[the first of the three that works on this machine]");
     app.add_flag("--shadows", options.shadows, "ray casters: hard shadows, cast by the whole model");
     app.add_flag("--dynamic", options.dynamic,
                  "ray casters: build the tree anew for every frame, over what a server is given to draw");
@@ -169,17 +170,19 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     const auto parsed_cull = parse_cull_algorithm(cull);
     if (!parsed_cull) return refuse({"--cull: " + parsed_cull.error().message});
     options.cull = *parsed_cull;
-    const auto renderers = parse_renderers(renderer);
-    if (!renderers) return refuse({"--renderer: " + renderers.error().message});
-    if (options.single && renderers->size() > 1)
-        return refuse({fmt::format("--renderer: '{}': --single draws with one", renderer)});
-    options.renderers = *renderers;
+    if (draw_with->count() > 0) {
+        const auto renderers = parse_renderers(renderer);
+        if (!renderers) return refuse({"--renderer: " + renderers.error().message});
+        if (options.single && renderers->size() > 1)
+            return refuse({fmt::format("--renderer: '{}': --single draws with one", renderer)});
+        options.renderers = *renderers;
+    }
     if (!has_raycast(options.renderers))
         for (const auto& [flag, given] :
              {std::pair("--shadows", options.shadows), {"--dynamic", options.dynamic}})
             if (given)
-                return refuse(
-                    {fmt::format("{}: needs a ray caster, and --renderer is '{}'", flag, renderer)});
+                return refuse({fmt::format("{}: needs a ray caster, and --renderer is '{}'", flag,
+                                           draw_with->count() > 0 ? renderer : "osmesa, where it works")});
     const auto by = parse_objects_by(objects_by);
     if (!by) return refuse({"--objects-by: " + by.error().message});
     options.granularity.by = *by;

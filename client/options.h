@@ -23,8 +23,8 @@ struct ClientOptions {
     std::optional<ServerSource> servers;
     std::optional<Address> display;
     Algorithm algorithm = Algorithm::kHybrid;
-    std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // of the servers in turn
-    bool shadows = false;                                        // of ray casters
+    std::vector<RendererKind> renderers;  // of the servers in turn; none: what works here
+    bool shadows = false;                 // of ray casters
     bool dynamic = false;
     CullAlgorithm cull = CullAlgorithm::kWide;
     Granularity granularity;

@@ -1,6 +1,6 @@
-# Every outside library, in one place. All are Debian 12 packages (script/bootstrap installs them).
+# Every outside library, in one place. All are packages of Debian 12, 13 and sid (script/bootstrap installs them).
 find_package(Threads REQUIRED)
-find_package(Boost 1.81 REQUIRED)
+find_package(Boost 1.81 CONFIG REQUIRED)
 find_package(Protobuf REQUIRED)
 find_package(glm REQUIRED)
 find_package(spdlog REQUIRED)
@@ -16,13 +16,11 @@ pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 # SAH octrees are built with Thrust, on TBB's threads.
 find_package(TBB REQUIRED)
 find_path(SWATH_THRUST_INCLUDE thrust/version.h REQUIRED)
-pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
-pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 if(SWATH_TESTS)
   find_package(GTest REQUIRED)
   # Benchmarks only.
   pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)
-  find_package(embree 3 REQUIRED)
+  find_package(embree REQUIRED)  # 3 or 4
 endif()
 
 # tl::expected is one header.

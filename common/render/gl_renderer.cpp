@@ -43,6 +43,15 @@ void main() {
 }
 )";
 
+Result<std::unique_ptr<GlContext>> make_context(RendererKind kind) {
+    return kind == RendererKind::kEgl ? make_egl_context() : make_osmesa_context();
+}
+
+std::string describe(const GlFunctions& gl) {
+    const auto text = [&](GLenum name) { return reinterpret_cast<const char*>(gl.GetString(name)); };
+    return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
+}
+
 }  // namespace
 
 GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const ObjectSet& scene, const GlFunctions& gl)
@@ -228,15 +237,17 @@ Status GlRenderer::read(const Rect& rect, PixelFrame& frame) {
     return check("reading pixels");
 }
 
-std::string GlRenderer::description() const {
-    const auto text = [&](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
-    return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
-}
+std::string GlRenderer::description() const { return describe(gl_); }
 
 Result<std::unique_ptr<Renderer>> make_gl_renderer(RendererKind kind, const ObjectSet& scene) {
-    auto context = kind == RendererKind::kEgl ? make_egl_context() : make_osmesa_context();
-    if (!context) return tl::unexpected(context.error());
-    return GlRenderer::make(std::move(*context), scene);
+    SWATH_TRY(auto context, make_context(kind));
+    return GlRenderer::make(std::move(context), scene);
+}
+
+Result<std::string> try_gl(RendererKind kind) {
+    SWATH_TRY(const auto context, make_context(kind));
+    SWATH_TRY(const GlFunctions gl, load_gl_functions(*context));
+    return describe(gl);
 }
 
 }  // namespace swath

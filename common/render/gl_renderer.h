@@ -48,7 +48,11 @@ class GlRenderer final : public Renderer {
 };
 
 // With OSMesa or EGL, on the calling thread. The scene must outlive it. Fails when the library or the driver
-// is missing, or the scene does not fit.
+// is missing, and names its package, or when the scene does not fit.
 Result<std::unique_ptr<Renderer>> make_gl_renderer(RendererKind kind, const ObjectSet& scene);
+
+// Whether OSMesa or EGL works here: its renderer's description, or why there is none. Makes a context on the
+// calling thread, which must have none, and ends it.
+Result<std::string> try_gl(RendererKind kind);
 
 }  // namespace swath

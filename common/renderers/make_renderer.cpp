@@ -13,6 +13,16 @@ Result<std::unique_ptr<Renderer>> make_renderer(const RendererSetup& setup, cons
     return make_gl_renderer(setup.kind, scene);
 }
 
+DefaultRenderer default_renderer() {
+    std::string missing;
+    for (const RendererKind kind : {RendererKind::kOsmesa, RendererKind::kEgl}) {
+        const auto found = try_gl(kind);
+        if (found) return {kind, *found};
+        missing += fmt::format("{}{}", missing.empty() ? "" : "; ", found.error().message);
+    }
+    return {RendererKind::kRaycast, missing};
+}
+
 bool can_build_on_cuda() {
     const std::string missing = missing_cuda();
     if (!missing.empty()) spdlog::warn("--trees-on cuda: {}; threads build the trees", missing);

@@ -1,5 +1,7 @@
 #include "sim/hardware/hardware.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <filesystem>
 

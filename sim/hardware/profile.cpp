@@ -1,6 +1,8 @@
 #include "sim/hardware/profile.h"
 
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
+
 #include <algorithm>
 #include <numeric>
 #include <set>

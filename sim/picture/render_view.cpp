@@ -9,7 +9,7 @@
 namespace swath::sim {
 
 Result<Picture> render_view(const ObjectSet& scene, const View& view, const Rgb& background) {
-    SWATH_TRY(auto renderer, make_renderer(RendererSetup{}, scene));
+    SWATH_TRY(auto renderer, make_renderer({.kind = default_renderer().kind}, scene));
     std::vector<ObjectId> all(scene.objects.size());
     std::iota(all.begin(), all.end(), ObjectId{0});
     SWATH_TRY_VOID(renderer->draw(whole_objects(scene.objects, all), view, view.viewport()));

@@ -6,10 +6,9 @@
 
 namespace swath::sim {
 
-// Draws the whole scene as `swath-client --single --renderer osmesa` does, byte for byte. Makes a renderer
-// and uploads the scene for this one picture. Blocking; no other renderer may live on the calling thread. The
-// program must call tune_allocator() and set the renderer's threads before. Fails if OSMesa is missing or the
-// scene does not fit.
+// The whole scene as `swath-client --single` draws it on this machine, byte for byte. Makes a renderer and
+// uploads the scene for this one picture. Blocking; no other renderer may live on the calling thread. The
+// program calls tune_allocator() and sets the renderer's threads before. Fails when the scene does not fit.
 Result<Picture> render_view(const ObjectSet& scene, const View& view, const Rgb& background);
 
 }  // namespace swath::sim

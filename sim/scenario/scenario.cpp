@@ -1,6 +1,6 @@
 #include "sim/scenario/scenario.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 #include "tests/architecture/include_graph.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>

@@ -53,7 +53,7 @@ Status draw(Renderer& renderer, LeafCull& cull, const Frame& frame, Cost& cost) 
 // same.
 Status measure(Figures& figures, const Effort& effort, const std::string& name, const ObjectSet& coarse,
                const ObjectSet& fine, const std::vector<Frame>& frames) {
-    SWATH_TRY(auto renderer, make_renderer(RendererSetup{}, coarse));
+    SWATH_TRY(auto renderer, make_renderer({.kind = default_renderer().kind}, coarse));
     const SteadyClock clock;
     ThreadTeam team(1, clock);
     std::array<LeafCull, 2> culls{make_leaf_cull(CullAlgorithm::kWide, coarse, team),

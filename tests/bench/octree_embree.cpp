@@ -1,6 +1,10 @@
 #include "tests/bench/octree_embree.h"
 
+#if SWATH_EMBREE == 3
 #include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,6 +30,29 @@ RTCBuildQuality quality_of(EmbreeQuality quality) {
     }
     return RTC_BUILD_QUALITY_HIGH;
 }
+
+// What packets of rays from one eye are cast with, whose names are others in each version.
+#if SWATH_EMBREE == 3
+struct Coherent : RTCIntersectContext {
+    Coherent() {
+        rtcInitIntersectContext(this);
+        flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    }
+    void intersect(const int* valid, RTCScene scene, RTCRayHit16& packet) {
+        rtcIntersect16(valid, scene, this, &packet);
+    }
+};
+#else
+struct Coherent : RTCIntersectArguments {
+    Coherent() {
+        rtcInitIntersectArguments(this);
+        flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    }
+    void intersect(const int* valid, RTCScene scene, RTCRayHit16& packet) {
+        rtcIntersect16(valid, scene, &packet, this);
+    }
+};
+#endif
 
 // Makes denormal numbers 0, as Embree's manual asks of threads that cast rays.
 class NoDenormals {
@@ -113,9 +140,7 @@ std::size_t EmbreeScene::bytes() const {
 std::uint64_t EmbreeScene::cast(const RayView& view, int first_row, int last_row, float* distances) const {
     const NoDenormals no_denormals;
     const TileRays rays(view);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    Coherent coherent;
     alignas(64) int valid[kPacketRays];
     alignas(64) RTCRayHit16 packet{};
     for (int lane = 0; lane < kPacketRays; ++lane) {
@@ -134,7 +159,7 @@ std::uint64_t EmbreeScene::cast(const RayView& view, int first_row, int last_row
                 packet.ray.tfar[lane] = view.far;
                 packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
             }
-            rtcIntersect16(valid, parts_->scene, &context, &packet);
+            coherent.intersect(valid, parts_->scene, packet);
             for (int lane = 0; lane < kPacketRays; ++lane)
                 hits += packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
             if (distances == nullptr) continue;

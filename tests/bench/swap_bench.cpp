@@ -81,7 +81,7 @@ Status bench_swap(Figures& figures, const Effort& effort) {
     SWATH_TRY(auto mesh, load_model(effort.model));
     const ObjectSet scene = build_objects(std::move(mesh), {});
     SWATH_TRY(const auto cameras, make_path("orbit", scene.bounds, {8, 1, 4.0f / 3.0f, 1.0f}));
-    SWATH_TRY(auto renderer, make_renderer(RendererSetup{}, scene));
+    SWATH_TRY(auto renderer, make_renderer({.kind = default_renderer().kind}, scene));
 
     const auto partitioner = make_partitioner(Algorithm::kHybrid, scene.objects);
     const SteadyClock clock;

@@ -124,6 +124,7 @@ TEST_F(Pictures, AreBackgroundWhenTheCameraLooksAway) {
 }
 
 TEST_F(Pictures, AreTheSameFromOsmesaAndEgl) {
+    if (gl_here() != RendererKind::kOsmesa) GTEST_SKIP() << "no OSMesa here";
     const Arguments arguments{"builtin:town:20000", "--size", "641x480", "--frames", "2"};
     const std::string expected = render(arguments + Arguments{"--single", "--renderer", "osmesa"});
     expect_same_pictures(expected, render(arguments + Arguments{"--single", "--renderer", "egl"}));

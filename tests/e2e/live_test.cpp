@@ -1,4 +1,5 @@
 // Live runs as a viewer sees them, without a browser (tests/e2e/browser has one).
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <csignal>
@@ -76,13 +77,14 @@ TEST_F(Live, StillPicturesHaveTheRunsPoseAndLightWhichAreInTheCommandToo) {
 }
 
 TEST_F(Live, GoFromServersOfBothKindsToOneAndSayHowToDrawThatAgain) {
-    const auto client = start_client({"--local", "2", "--renderer", "raycast,osmesa", "--shadows",
+    const std::string gl(name_of(gl_here()));
+    const auto client = start_client({"--local", "2", "--renderer", "raycast," + gl, "--shadows",
                                       "--objects-by", "sah", "--objects", "200", "--size", "64x48"});
     LiveViewer viewer(page(*client));
     viewer.still(viewer.wish({{"camera", home_["camera"]}, {"width", 64}, {"height", 48}}));
-    EXPECT_EQ(viewer.note("state")["renderer"], "raycast,osmesa");
+    EXPECT_EQ(viewer.note("state")["renderer"], "raycast," + gl);
     for (const auto& [renderer, flags] :
-         {std::pair("raycast", Arguments{"--shadows"}), std::pair("osmesa", Arguments{})})
+         {std::pair(std::string("raycast"), Arguments{"--shadows"}), std::pair(gl, Arguments{})})
         for (const int objects : {200, 60}) {
             const auto still = viewer.still(viewer.wish({{"renderer", renderer}, {"objects", objects}}));
             const Json state = viewer.note("state", [&](const Json& note) {

@@ -72,7 +72,9 @@ std::unique_ptr<Process> EndToEnd::start(const std::string& program, Arguments a
         arguments = Arguments{"--silence-ms", "10000"} + arguments;
     return std::make_unique<Process>(
         std::filesystem::path(SWATH_PROGRAMS) / program, arguments,
-        Process::Options{{"LP_NUM_THREADS=0", "XDG_CACHE_HOME=" + files_.path_of("cache")}, folder});
+        Process::Options{
+            Arguments{"LP_NUM_THREADS=0", "XDG_CACHE_HOME=" + files_.path_of("cache")} + environment_,
+            folder});
 }
 
 Finished EndToEnd::run(const std::string& program, const Arguments& arguments,

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/drawings.h"
 #include "tests/support/models.h"
 #include "tests/support/process.h"
 
@@ -41,6 +42,7 @@ class EndToEnd : public testing::Test {
     std::string render(const Arguments& arguments);
 
     TemporaryFolder files_;
+    std::vector<std::string> environment_;  // of what is started from now on, "NAME=VALUE"
 
   private:
     int renders_ = 0;

@@ -73,7 +73,7 @@ TEST_F(Raycast, PicturesOfSahObjectsEqualThoseOfASingleProcess) {
         Arguments{"builtin:town:3000", "--objects-by", "sah", "--objects", "200"} + kPicture;
     compare(run + Arguments{"--renderer", "raycast"});
     // A fifth of the combinations still has every algorithm and nearly every number.
-    compare(run + Arguments{"--renderer", "osmesa"}, 5);
+    compare(run + Arguments{"--renderer", std::string(name_of(gl_here()))}, 5);
 }
 
 TEST_F(Raycast, PicturesDependNeitherOnThreadsNorOnATreeBuiltForEachFrame) {
@@ -160,12 +160,13 @@ TEST_F(Raycast, PicturesOfBothKindsOfServerAreNearlyTheRasterisersPictures) {
     for (const char* model : {"builtin:knot:3000", "builtin:spheres:3000", "builtin:swarm:3000"}) {
         const Arguments run = Arguments{model, "--size", "320x240", "--frames", "2"};
         const std::string expected = render(run + Arguments{"--single"});
+        const std::string both = fmt::format("raycast,{}", name_of(gl_here()));
         const std::string rays = render(run + Arguments{"--single", "--renderer", "raycast"});
         const double by_rays = share_of_different(expected, rays, 4);
         EXPECT_LT(by_rays, 0.001) << model;
         for (const char* algorithm : kAlgorithms) {
-            const std::string mixed = render(
-                run + Arguments{"--local", "3", "--renderer", "raycast,osmesa", "--algorithm", algorithm});
+            const std::string mixed =
+                render(run + Arguments{"--local", "3", "--renderer", both, "--algorithm", algorithm});
             const double share = share_of_different(expected, mixed, 4);
             EXPECT_LT(share, 0.001) << model << ' ' << algorithm;
         }

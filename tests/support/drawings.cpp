@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <thread>
 
 #include "common/base/check.h"
+#include "common/render/gl_renderer.h"
 #include "common/scene/procedural.h"
 
 namespace swath::test {
@@ -28,6 +30,16 @@ std::vector<DrawRun> all_of(const ObjectSet& scene) {
     std::vector<ObjectId> ids(scene.objects.size());
     for (ObjectId id = 0; id < ids.size(); ++id) ids[id] = id;
     return whole_objects(scene.objects, ids);
+}
+
+RendererKind gl_here() {
+    static const RendererKind kind = [] {
+        bool works = false;
+        // A thread holds one context at most, and this one may.
+        std::thread([&] { works = try_gl(RendererKind::kOsmesa).has_value(); }).join();
+        return works ? RendererKind::kOsmesa : RendererKind::kEgl;
+    }();
+    return kind;
 }
 
 PixelFrame draw(Renderer& renderer, std::span<const DrawRun> runs, const View& view, const Rect& rect) {

@@ -14,6 +14,9 @@ ObjectSet builtin_scene(const std::string& model, std::size_t triangles);
 View view_of(const ObjectSet& scene, int width = 97, int height = 61);
 std::vector<DrawRun> all_of(const ObjectSet& scene);
 
+// What draws with OpenGL here: OSMesa, or EGL on systems that have it no longer.
+RendererKind gl_here();
+
 // Draws and reads; an error fails the test.
 PixelFrame draw(Renderer& renderer, std::span<const DrawRun> runs, const View& view, const Rect& rect);
 

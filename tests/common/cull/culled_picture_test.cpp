@@ -18,7 +18,7 @@ TEST(CulledPicture, EqualsThatOfTheWholeModel) {
         for (const bool moves : {false, true}) {
             const ObjectSet scene = moves ? test::moving_soup(13, offset, 4) : test::soup(13, offset, 4);
             const std::vector<ObjectId> all = test::all_ids(scene);
-            auto renderer = make_renderer(RendererSetup{}, scene);
+            auto renderer = make_renderer({test::gl_here()}, scene);
             ASSERT_TRUE(renderer.has_value()) << renderer.error().message;
             LeafCull none = make_leaf_cull(CullAlgorithm::kNone, scene, team);
             LeafCull wide = make_leaf_cull(CullAlgorithm::kWide, scene, team);

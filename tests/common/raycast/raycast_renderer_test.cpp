@@ -62,7 +62,7 @@ PixelFrame draw(const ObjectSet& scene, const View& view, const How& how) {
 PixelFrame rasterise(const ObjectSet& scene, const View& view) {
     PixelFrame frame;
     std::thread([&] {
-        const auto renderer = make_renderer({RendererKind::kOsmesa}, scene);
+        const auto renderer = make_renderer({test::gl_here()}, scene);
         ASSERT_TRUE(renderer.has_value()) << renderer.error().message;
         frame = draw(**renderer, all_of(scene), view, view.viewport());
     }).join();
