@@ -1,27 +1,64 @@
 #include "client/launch/local_cluster.h"
 
 #include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
-#include <boost/process/args.hpp>
-#include <boost/process/child.hpp>
-#include <boost/process/exe.hpp>
-#include <boost/process/io.hpp>
-#include <boost/process/pipe.hpp>
+#include <array>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 namespace swath {
-namespace bp = boost::process;
 namespace {
+
 // A program leaves as soon as its lifeline closes. One that is frozen cannot, and is killed after this.
 constexpr auto kLeavePatience = std::chrono::milliseconds(300);
+
+// Both ends close on exec: a child that inherited another child's lifeline would keep that child alive.
+struct Pipe {
+    std::array<int, 2> ends{-1, -1};  // to read from, to write to
+    Pipe() {
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+            throw std::system_error(errno, std::generic_category(), "pipe");
+    }
+    ~Pipe() {
+        close(0);
+        close(1);
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+    void close(std::size_t end) {
+        if (ends[end] >= 0) ::close(std::exchange(ends[end], -1));
+    }
+};
+
+// Without its end; what there is when the program ends before that.
+std::string read_line(const Pipe& pipe) {
+    std::string line;
+    char c = 0;
+    for (;;) {
+        const ssize_t got = ::read(pipe.ends[0], &c, 1);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0 || c == '\n') return line;
+        line += c;
+    }
+}
+
 }  // namespace
 
 struct LocalCluster::Child {
     std::string name;
-    bp::opstream lifeline;
-    bp::ipstream output;
-    bp::child process;
+    Pipe lifeline;
+    Pipe output;
+    pid_t pid = -1;
+
+    // Whether it has ended; then it is no process any more.
+    bool ended(int flags) { return ::waitpid(pid, nullptr, flags) == pid; }
 };
 
 LocalCluster::LocalCluster() = default;
@@ -33,14 +70,19 @@ Result<std::unique_ptr<LocalCluster::Child>> LocalCluster::spawn(const std::file
     child->name = program.filename().string();
     std::vector<std::string> all{"--listen", "127.0.0.1:0", "--lifeline"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    std::error_code error;
-    // A child that inherited another child's lifeline would keep that child alive.
-    for (const int fd : {child->lifeline.pipe().native_source(), child->lifeline.pipe().native_sink(),
-                         child->output.pipe().native_source(), child->output.pipe().native_sink()})
-        ::fcntl(fd, F_SETFD, FD_CLOEXEC);
-    child->process = bp::child(bp::exe = program.string(), bp::args = all,
-                               bp::std_in<child->lifeline, bp::std_out> child->output, error);
-    if (error) return fail("cannot start {}: {}", program.string(), error.message());
+    std::vector<char*> argv{const_cast<char*>(program.c_str())};
+    for (std::string& argument : all) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, child->lifeline.ends[0], STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, child->output.ends[1], STDOUT_FILENO);
+    const int error = ::posix_spawn(&child->pid, program.c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0)
+        return fail("cannot start {}: {}", program.string(), std::generic_category().message(error));
+    child->lifeline.close(0);
+    child->output.close(1);
     return child;
 }
 
@@ -57,8 +99,7 @@ Result<std::unique_ptr<LocalCluster>> LocalCluster::start(const Options& options
     }
     for (std::size_t i = 0; i < cluster->children_.size(); ++i) {
         Child& child = *cluster->children_[i];
-        std::string line;
-        std::getline(child.output, line);
+        const std::string line = read_line(child.output);
         static constexpr std::string_view kAnnouncement = "listening ";
         if (!line.starts_with(kAnnouncement)) return fail("{} did not start", child.name);
         SWATH_TRY(const auto address, parse_address(std::string_view(line).substr(kAnnouncement.size())));
@@ -71,14 +112,15 @@ Result<std::unique_ptr<LocalCluster>> LocalCluster::start(const Options& options
 }
 
 void LocalCluster::end() {
-    for (const auto& child : children_) child->lifeline.pipe().close();
+    for (const auto& child : children_) child->lifeline.close(1);
     const auto deadline = std::chrono::steady_clock::now() + kLeavePatience;
     for (const auto& child : children_) {
-        std::error_code ignored;
-        while (child->process.running(ignored) && std::chrono::steady_clock::now() < deadline)
+        bool ended = child->ended(WNOHANG);
+        for (; !ended && std::chrono::steady_clock::now() < deadline; ended = child->ended(WNOHANG))
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        if (child->process.running(ignored)) child->process.terminate(ignored);
-        child->process.wait(ignored);
+        if (ended) continue;
+        ::kill(child->pid, SIGKILL);
+        child->ended(0);
     }
     children_.clear();
 }
