@@ -38,9 +38,7 @@ std::optional<fs::path> find(const std::string& program) {
     std::istringstream folders(fmt::format("{0}/usr/bin:{0}/usr/sbin:{1}:/usr/sbin:/sbin",
                                            unpacked().string(), path == nullptr ? "" : path));
     for (std::string folder; std::getline(folders, folder, ':');)
-        // Debian's daemons have a second name, to which alternatives point if they are installed.
-        for (const std::string& name : {program, program + "-wlm"})
-            if (::access((fs::path(folder) / name).c_str(), X_OK) == 0) return fs::path(folder) / name;
+        if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return fs::path(folder) / program;
     return {};
 }
 
