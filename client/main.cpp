@@ -13,10 +13,10 @@ int main(int argc, char** argv) {
     tune_allocator();
     // The client of a cluster does not draw; it only looks what works.
     set_raster_threads(options->single ? options->threads : 0);
-    if (options->renderers.empty()) {
+    if (options->draw.renderers.empty()) {
         const DefaultRenderer found = default_renderer();
         spdlog::info("drawing with {} ({})", name_of(found.kind), found.description);
-        options->renderers = {found.kind};
+        options->draw.renderers = {found.kind};
     }
     const auto status = run_client(*options, signals);
     return status ? kExitDone : run_error(status.error());

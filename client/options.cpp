@@ -1,5 +1,6 @@
 #include "client/options.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <iostream>
@@ -39,6 +40,16 @@ Status parse_light(const std::string& text, std::optional<glm::vec3>& light) {
     light = to;
     return {};
 }
+
+struct FlagOption {
+    const char* name;
+    bool RenderFlags::*flag;
+    const char* help;
+};
+constexpr std::array kFlagOptions{
+    FlagOption{"--shadows", &RenderFlags::shadows, "ray casters: hard shadows, cast by the whole model"},
+    FlagOption{"--dynamic", &RenderFlags::dynamic,
+               "ray casters: build the tree anew for every frame, over what a server is given to draw"}};
 
 std::string builtin_list() {
     std::string list;
@@ -102,9 +113,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         app.add_option("--renderer", renderer,
                        "osmesa, egl (surfaceless) or raycast; with commas between, for the servers in turn\n"
                        "[the first of the three that works on this machine]");
-    app.add_flag("--shadows", options.shadows, "ray casters: hard shadows, cast by the whole model");
-    app.add_flag("--dynamic", options.dynamic,
-                 "ray casters: build the tree anew for every frame, over what a server is given to draw");
+    for (const FlagOption& one : kFlagOptions) app.add_flag(one.name, options.draw.flags.*one.flag, one.help);
     app.add_option("--cull", cull,
                    "how servers find what they draw: " + cull_algorithm_names() + " (all of their part)")
         ->capture_default_str();
@@ -169,19 +178,18 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     options.algorithm = *parsed;
     const auto parsed_cull = parse_cull_algorithm(cull);
     if (!parsed_cull) return refuse({"--cull: " + parsed_cull.error().message});
-    options.cull = *parsed_cull;
+    options.draw.cull = *parsed_cull;
     if (draw_with->count() > 0) {
         const auto renderers = parse_renderers(renderer);
         if (!renderers) return refuse({"--renderer: " + renderers.error().message});
         if (options.single && renderers->size() > 1)
             return refuse({fmt::format("--renderer: '{}': --single draws with one", renderer)});
-        options.renderers = *renderers;
+        options.draw.renderers = *renderers;
     }
-    if (!has_raycast(options.renderers))
-        for (const auto& [flag, given] :
-             {std::pair("--shadows", options.shadows), {"--dynamic", options.dynamic}})
-            if (given)
-                return refuse({fmt::format("{}: needs a ray caster, and --renderer is '{}'", flag,
+    if (!has_raycast(options.draw.renderers))
+        for (const FlagOption& one : kFlagOptions)
+            if (options.draw.flags.*one.flag)
+                return refuse({fmt::format("{}: needs a ray caster, and --renderer is '{}'", one.name,
                                            draw_with->count() > 0 ? renderer : "osmesa, where it works")});
     const auto by = parse_objects_by(objects_by);
     if (!by) return refuse({"--objects-by: " + by.error().message});
@@ -220,6 +228,13 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         options.view_limits.max_height = largest->height;
     }
     return options;
+}
+
+std::string to_arguments(const RenderFlags& flags) {
+    std::string text;
+    for (const FlagOption& one : kFlagOptions)
+        if (flags.*one.flag) text += fmt::format(" {}", one.name);
+    return text;
 }
 
 }  // namespace swath

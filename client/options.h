@@ -6,10 +6,9 @@
 #include "client/live/wish.h"
 #include "client/machines/server_source.h"
 #include "client/partition/partitioner.h"
-#include "common/cull/cull_algorithm.h"
 #include "common/image/picture.h"
 #include "common/program/program.h"
-#include "common/render/renderer_kind.h"
+#include "common/render/draw_settings.h"
 #include "common/scene/objects.h"
 #include "common/wire/address.h"
 
@@ -23,10 +22,7 @@ struct ClientOptions {
     std::optional<ServerSource> servers;
     std::optional<Address> display;
     Algorithm algorithm = Algorithm::kHybrid;
-    std::vector<RendererKind> renderers;  // of the servers in turn; none: what works here
-    bool shadows = false;                 // of ray casters
-    bool dynamic = false;
-    CullAlgorithm cull = CullAlgorithm::kWide;
+    DrawSettings draw{.renderers = {}};  // no renderers: what works here
     Granularity granularity;
     int width = 1280;
     int height = 960;
@@ -53,5 +49,8 @@ struct ClientOptions {
 
 // The options, or the exit code with which the program is to end now (help or a wrong flag, already said).
 tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv);
+
+// Those that are set, as in a command line: " --shadows".
+std::string to_arguments(const RenderFlags& flags);
 
 }  // namespace swath

@@ -31,7 +31,7 @@ std::string raster_threads(std::size_t servers) {
 
 // A live run's page may ask for ray casters later on.
 bool builds_on_cuda(const ClientOptions& options) {
-    return options.cuda && (options.view || has_raycast(options.renderers)) && can_build_on_cuda();
+    return options.cuda && (options.view || has_raycast(options.draw.renderers)) && can_build_on_cuda();
 }
 
 Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) {
@@ -74,7 +74,7 @@ Result<LiveView::Settings> live_settings(const ClientOptions& options, const Obj
     live.start.height = std::min(options.height, live.limits.max_height);
     live.start.algorithm = options.algorithm;
     live.start.setup = {options.granularity.depth ? scene.objects.size() : options.granularity.objects,
-                        options.renderers, options.cull};
+                        options.draw};
     return live;
 }
 
@@ -106,10 +106,10 @@ std::string command_of(const ClientOptions& options, const LiveWish& wish,
     const std::string what = cut.by == ObjectsBy::kSah
                                  ? fmt::format("--objects-by sah --objects {}", cut.objects)
                                  : fmt::format("--octree-depth {}", cut.depth);
-    std::string how = renderer_list(wish.setup.renderers);
-    if (has_raycast(wish.setup.renderers)) {
-        if (options.shadows) how += " --shadows";
-        if (options.dynamic) how += " --dynamic";
+    const DrawSettings& draw = wish.setup.draw;
+    std::string how = renderer_list(draw.renderers);
+    if (has_raycast(draw.renderers)) {
+        how += to_arguments(draw.flags);
         if (options.cuda) how += " --trees-on cuda";
     }
     std::string look;
@@ -119,8 +119,8 @@ std::string command_of(const ClientOptions& options, const LiveWish& wish,
     return fmt::format(
         "swath-client {} {} --algorithm {} --renderer {} --cull {} {} --size {}x{} "
         "--background {:02x}{:02x}{:02x}{} --path view.camera --out view",
-        quoted(options.model), where, name_of(wish.algorithm), how, name_of(wish.setup.cull), what,
-        wish.width, wish.height, options.background[0], options.background[1], options.background[2], look);
+        quoted(options.model), where, name_of(wish.algorithm), how, name_of(draw.cull), what, wish.width,
+        wish.height, options.background[0], options.background[1], options.background[2], look);
 }
 
 Status save_timeline(const std::string& file, const std::vector<FrameTimeline>& frames) {
@@ -161,12 +161,9 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
     if (options.single) {
         SingleJob job;
         job.scene = &scene;
-        job.renderer.kind = options.renderers.front();
-        job.renderer.shadows = options.shadows;
-        job.renderer.dynamic = options.dynamic;
-        job.renderer.threads = drawing_threads(options.threads);
-        job.renderer.cuda = builds_on_cuda(options);
-        job.cull = options.cull;
+        job.renderer = {options.draw.renderers.front(), options.draw.flags, drawing_threads(options.threads),
+                        builds_on_cuda(options)};
+        job.cull = options.draw.cull;
         job.cameras = std::move(*cameras);
         job.pose = pose_of(options, scene);
         job.to_light = to_light(options);
@@ -193,10 +190,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
             is_builtin(options.model) ? options.model : std::filesystem::absolute(options.model).string();
         job.scene = shared_scene;
         job.blob = std::move(blob);
-        job.renderers = options.renderers;
-        job.shadows = options.shadows;
-        job.dynamic = options.dynamic;
-        job.cull = options.cull;
+        job.draw = options.draw;
         job.algorithm = options.algorithm;
         job.pose = pose_of(options, scene);
         job.to_light = to_light(options);

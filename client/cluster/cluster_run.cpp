@@ -34,7 +34,6 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
           // A display that does not take it is found out by the next frame.
           (void)machines_->tell_display(Note{topic, frame}, std::move(body));
       }),
-      drawing_{job_.scene->cut, job_.renderers, job_.cull, job_.shadows, job_.dynamic},
       patience_(io) {
     if (job_.live) live_.emplace(*job_.live);
     use(job_.scene);
@@ -46,7 +45,7 @@ void ClusterRun::start() {
     job.display = job_.display;
     job.model = job_.model;
     job.blob = std::move(job_.blob);
-    job.drawing = drawing_;
+    job.drawing = {job_.draw, job_.scene->cut};
     job.objects = job_.scene->objects.size();
     job.format = job_.format;
     job.frames_in_flight = job_.frames_in_flight;
@@ -385,8 +384,8 @@ Status ClusterRun::change_setup() {
 Status ClusterRun::on_cut(std::shared_ptr<const ObjectSet> scene) {
     if (!scene) return end_change("not enough memory to cut the model anew");
     next_scene_ = std::move(scene);
-    const RunDrawing next = next_drawing(*next_scene_);
-    if (next == drawing_) return end_change({});
+    const Drawing next{next_setup_.draw, next_scene_->cut};
+    if (next == Drawing{job_.draw, job_.scene->cut}) return end_change({});
     return machines_->reconfigure(next, next_scene_->objects.size(),
                                   [weak = weak_from_this()](const std::string& refused) {
                                       const auto self = weak.lock();
@@ -394,21 +393,11 @@ Status ClusterRun::on_cut(std::shared_ptr<const ObjectSet> scene) {
                                   });
 }
 
-// Of the change that is under way.
-RunDrawing ClusterRun::next_drawing(const ObjectSet& scene) const {
-    RunDrawing next = drawing_;
-    next.cut = scene.cut;
-    next.renderers = next_setup_.renderers;
-    next.cull = next_setup_.cull;
-    return next;
-}
-
 Status ClusterRun::end_change(const std::string& refused) {
     auto scene = std::exchange(next_scene_, nullptr);
     changing_ = false;
     if (refused.empty()) {
-        const RunDrawing before = std::exchange(drawing_, next_drawing(*scene));
-        if (drawing_.renderers != before.renderers || drawing_.cull != before.cull) broadcast_.on_drawing();
+        if (std::exchange(job_.draw, next_setup_.draw) != next_setup_.draw) broadcast_.on_drawing();
         if (scene != job_.scene) use(std::move(scene));
         live_->on_setup(next_setup_);
         tell_session();  // it names the servers' renderers

@@ -31,11 +31,8 @@ struct ClusterJob {
     Address display;
     std::string model;  // as the user named it
     std::shared_ptr<const ObjectSet> scene;
-    Buffer blob;                                                 // the model for servers that lack it
-    std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // of the servers in turn, by their numbers
-    CullAlgorithm cull = CullAlgorithm::kWide;
-    bool shadows = false;  // of ray casters
-    bool dynamic = false;
+    Buffer blob;  // the model for servers that lack it
+    DrawSettings draw;
     Algorithm algorithm = Algorithm::kHybrid;
     std::vector<Camera> cameras;        // a frame each; none in a live run
     std::optional<float> pose = 0;      // of all frames; none: path_pose() of each
@@ -97,7 +94,6 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     FrameOrder order_of(FrameNumber frame);
     Status issue(FrameNumber frame);
     Status change_setup();
-    RunDrawing next_drawing(const ObjectSet& scene) const;
     Status on_cut(std::shared_ptr<const ObjectSet> scene);
     Status end_change(const std::string& refused);
     Status go_on();
@@ -121,7 +117,6 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Broadcast broadcast_;
 
     // A change of setup, from kReconfigure on.
-    RunDrawing drawing_;  // in effect
     bool changing_ = false;
     LiveSetup next_setup_;
     std::shared_ptr<const ObjectSet> next_scene_;

@@ -171,8 +171,8 @@ Refusals LiveView::refused() const {
     Refusals all = refused_;
     if (wish_.setup != refused_setup_) return all;
     if (refused_setup_->objects != setup_.objects) all["objects"] = refused_why_;
-    if (refused_setup_->renderers != setup_.renderers) all["renderer"] = refused_why_;
-    if (refused_setup_->cull != setup_.cull) all["cull"] = refused_why_;
+    if (refused_setup_->draw.renderers != setup_.draw.renderers) all["renderer"] = refused_why_;
+    if (refused_setup_->draw.cull != setup_.draw.cull) all["cull"] = refused_why_;
     return all;
 }
 

@@ -51,8 +51,8 @@ Json names_of(const Names& all) {
 // Each alone, and what the run was started with.
 Json renderer_choices(const LiveView* live) {
     Json names = names_of(kRendererKinds);
-    if (live != nullptr && live->start().setup.renderers.size() > 1)
-        names.push_back(renderer_list(live->start().setup.renderers));
+    if (live != nullptr && live->start().setup.draw.renderers.size() > 1)
+        names.push_back(renderer_list(live->start().setup.draw.renderers));
     return names;
 }
 
@@ -162,8 +162,8 @@ std::string state_note(const LiveView& live, const std::string& busy, const std:
                     {"against", name_or_null(wish.against)},
                     {"servers", wish.servers ? Json(*wish.servers) : Json()},
                     {"objects", live.accepted_setup().objects},
-                    {"renderer", renderer_list(live.accepted_setup().renderers)},
-                    {"cull", name_of(live.accepted_setup().cull)},
+                    {"renderer", renderer_list(live.accepted_setup().draw.renderers)},
+                    {"cull", name_of(live.accepted_setup().draw.cull)},
                     {"path", wish.path.empty() ? Json() : Json(wish.path)},
                     {"paused", wish.paused},
                     {"refused", live.refused()},

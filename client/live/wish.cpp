@@ -113,8 +113,9 @@ Result<Refusals> apply_wish(std::string_view text, std::uint32_t by, const WishL
     field("servers", [&](const Json& value) { return take_servers(value, limits.servers, wish.servers); });
     field("objects", [&](const Json& value) { return take(value, 1, kMaxObjectsAsked, wish.setup.objects); });
     field("renderer",
-          [&](const Json& value) { return take_name(value, parse_renderers, wish.setup.renderers); });
-    field("cull", [&](const Json& value) { return take_name(value, parse_cull_algorithm, wish.setup.cull); });
+          [&](const Json& value) { return take_name(value, parse_renderers, wish.setup.draw.renderers); });
+    field("cull",
+          [&](const Json& value) { return take_name(value, parse_cull_algorithm, wish.setup.draw.cull); });
     field("path", [&](const Json& value) { return take_path(value, wish.path); });
     field("paused", [&](const Json& value) { return take(value, wish.paused); });
     field("step", [&](const Json& value) { return take(value, 0, kAny, wish.step); });

@@ -9,17 +9,15 @@
 #include "client/partition/partitioner.h"
 #include "client/path/camera_file.h"
 #include "common/base/result.h"
-#include "common/cull/cull_algorithm.h"
-#include "common/render/renderer_kind.h"
+#include "common/render/draw_settings.h"
 
 namespace swath {
 
 // What frames depend on besides the view and the way they are divided. To change it takes a pause between two
 // frames.
 struct LiveSetup {
-    std::size_t objects = 1500;                                  // about how many
-    std::vector<RendererKind> renderers{RendererKind::kOsmesa};  // of the servers in turn, by their numbers
-    CullAlgorithm cull = CullAlgorithm::kWide;
+    std::size_t objects = 1500;  // about how many
+    DrawSettings draw;
     bool operator==(const LiveSetup&) const = default;
 };
 

@@ -219,7 +219,7 @@ Status Machines::on_hello(ServerId id, const Hello& hello) {
     if (hello.role != Role::kServer)
         return fail("this is a {}, a {} is expected", name(hello.role), name(Role::kServer));
     Server& server = servers_.at(id);
-    server.drawing = job_.drawing.of(id);
+    server.drawing = job_.drawing;
     return tell(id, ServerSetup{job_.session, id, job_.model, digest_, job_.blob.size(), server.drawing,
                                 job_.frames_in_flight});
 }
@@ -280,7 +280,7 @@ Status Machines::on_ready(ServerId id, const Ready& ready) {
     Server& server = servers_.at(id);
     if (server.ready) return fail("Ready came twice");
     if (!ready.refused.empty()) return fail("{}", ready.refused);
-    if (server.drawing == job_.drawing.of(id) && ready.objects != job_.objects)
+    if (server.drawing == job_.drawing && ready.objects != job_.objects)
         return fail("cut the model into {} objects, this client into {}", ready.objects, job_.objects);
     server.ready = true;
     server.renderer = ready.description;
@@ -290,7 +290,7 @@ Status Machines::on_ready(ServerId id, const Ready& ready) {
 // What it has may be out of date: the drawing changed while it got ready.
 Status Machines::bring_up_to_date(ServerId id) {
     const Server& server = servers_.at(id);
-    if (server.ready && server.drawing != job_.drawing.of(id))
+    if (server.ready && server.drawing != job_.drawing)
         if (const Status status = ask(id, job_.drawing); !status) return status;
     roster_.on_ready(id, server.ready);
     return advance();
@@ -357,7 +357,7 @@ void Machines::release() {
 
 // --- drawing differently
 
-Status Machines::reconfigure(const RunDrawing& drawing, std::size_t objects, Reconfigured done) {
+Status Machines::reconfigure(const Drawing& drawing, std::size_t objects, Reconfigured done) {
     next_drawing_ = drawing;
     next_objects_ = objects;
     reconfigured_ = std::move(done);
@@ -370,15 +370,15 @@ Status Machines::reconfigure(const RunDrawing& drawing, std::size_t objects, Rec
     return ask_members(drawing);
 }
 
-Status Machines::ask(ServerId id, const RunDrawing& drawing) {
+Status Machines::ask(ServerId id, const Drawing& drawing) {
     Server& server = servers_.at(id);
-    server.drawing = drawing.of(id);
+    server.drawing = drawing;
     server.ready = false;
     const auto sent = server.connection->offer(Reconfigure{server.drawing});
     return sent ? Status{} : fail_in(server.who, sent.error());
 }
 
-Status Machines::ask_members(const RunDrawing& drawing) {
+Status Machines::ask_members(const Drawing& drawing) {
     for (const ServerId id : asked_)
         if (const Status status = ask(id, drawing); !status) return status;
     return {};
@@ -417,7 +417,7 @@ Status Machines::end_change(const std::string& refused) {
     asked_.clear();
     // Who came up meanwhile was not asked.
     for (const auto& [id, server] : servers_)
-        if (server.ready && server.drawing != job_.drawing.of(id)) {
+        if (server.ready && server.drawing != job_.drawing) {
             roster_.on_ready(id, false);
             if (const Status status = ask(id, job_.drawing); !status) return status;
         }

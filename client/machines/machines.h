@@ -9,11 +9,11 @@
 
 #include "client/machines/discovery.h"
 #include "client/machines/roster.h"
-#include "client/machines/run_drawing.h"
 #include "client/machines/setup_change.h"
 #include "common/base/buffer.h"
 #include "common/base/clock.h"
 #include "common/base/result.h"
+#include "common/render/draw_settings.h"
 #include "common/scene/model_blob.h"
 #include "common/wire/connection.h"
 
@@ -31,7 +31,7 @@ class Machines : public std::enable_shared_from_this<Machines> {
         Address display;
         std::string model;  // as the user named it
         Buffer blob;        // the model for servers that lack it
-        RunDrawing drawing;
+        Drawing drawing;
         std::size_t objects = 0;  // that this drawing has
         PictureFormat format = PictureFormat::kNone;
         std::uint32_t frames_in_flight = 3;
@@ -77,7 +77,7 @@ class Machines : public std::enable_shared_from_this<Machines> {
     // While no frame is open: all members cut, draw and cull like this from now on, or none does and `done`
     // gets the reason. Newcomers follow by themselves.
     using Reconfigured = std::function<Status(const std::string& refused)>;
-    Status reconfigure(const RunDrawing& drawing, std::size_t objects, Reconfigured done);
+    Status reconfigure(const Drawing& drawing, std::size_t objects, Reconfigured done);
 
   private:
     struct Server {
@@ -103,8 +103,8 @@ class Machines : public std::enable_shared_from_this<Machines> {
     Status send_model_part(const Server& server, std::uint64_t offset);
     Status on_ready(ServerId id, const Ready& ready);
     Status on_answer(ServerId id, const Ready& ready);
-    Status ask(ServerId id, const RunDrawing& drawing);
-    Status ask_members(const RunDrawing& drawing);
+    Status ask(ServerId id, const Drawing& drawing);
+    Status ask_members(const Drawing& drawing);
     void use_next_drawing();
     Status end_change(const std::string& refused);
     Status bring_up_to_date(ServerId id);
@@ -138,7 +138,7 @@ class Machines : public std::enable_shared_from_this<Machines> {
     // A change of drawing.
     SetupChange change_;
     std::set<ServerId> asked_;  // for it, and have not answered
-    RunDrawing next_drawing_;
+    Drawing next_drawing_;
     std::size_t next_objects_ = 0;
     Reconfigured reconfigured_;
 

@@ -36,7 +36,7 @@ class RaycastRenderer final : public Renderer {
         }
     }
 
-    Status build() { return setup_.dynamic ? Status{} : cast_.build_all(kDefaultSah); }
+    Status build() { return setup_.flags.dynamic ? Status{} : cast_.build_all(kDefaultSah); }
 
     Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override {
         CHECK(view.viewport().contains(rect) == true);
@@ -69,8 +69,8 @@ class RaycastRenderer final : public Renderer {
     std::string description() const override {
         return fmt::format("ray caster, {}, {} threads{}{}{}", name(best_instruction_set()), setup_.threads,
                            cast_.builder().device() == SahDevice::kCuda ? ", trees by CUDA" : "",
-                           setup_.shadows ? ", shadows" : "",
-                           setup_.dynamic ? ", a tree for each frame" : "");
+                           setup_.flags.shadows ? ", shadows" : "",
+                           setup_.flags.dynamic ? ", a tree for each frame" : "");
     }
 
   private:
@@ -82,11 +82,11 @@ class RaycastRenderer final : public Renderer {
             CHECK(run.first_triangle + run.triangle_count <= object.first_triangle + object.triangle_count);
         }
         cast_.pose(pose);
-        if (setup_.dynamic && !setup_.shadows) return cast_.build(runs, kFastSah);
+        if (setup_.flags.dynamic && !setup_.flags.shadows) return cast_.build(runs, kFastSah);
         // Triangles that are not drawn cast shadows, too, so the tree is over all.
-        if (setup_.dynamic || tree_pose_ != pose) {
+        if (setup_.flags.dynamic || tree_pose_ != pose) {
             tree_pose_.reset();
-            if (const auto status = cast_.build_all(setup_.dynamic ? kFastSah : kDefaultSah); !status)
+            if (const auto status = cast_.build_all(setup_.flags.dynamic ? kFastSah : kDefaultSah); !status)
                 return status;
             tree_pose_ = pose;
         }
@@ -102,7 +102,7 @@ class RaycastRenderer final : public Renderer {
                 const RayPacket packet = rays.packet(x, y);
                 PacketHits hits;
                 kernels_.nearest_by_depth(tree, packet, hits);
-                const std::uint32_t shadowed = setup_.shadows ? in_shadow(casters, packet, hits, view) : 0;
+                const std::uint32_t shadowed = setup_.flags.shadows ? in_shadow(casters, packet, hits, view) : 0;
                 for (int lane = 0; lane < kPacketRays; ++lane) {
                     const int px = x + lane % kSide;
                     const int py = y + lane / kSide;

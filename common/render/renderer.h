@@ -6,18 +6,17 @@
 #include "common/base/result.h"
 #include "common/geometry/camera.h"
 #include "common/image/pixel_frame.h"
-#include "common/render/renderer_kind.h"
+#include "common/render/draw_settings.h"
 #include "common/scene/draw_run.h"
 #include "common/scene/objects.h"
 
 namespace swath {
 
-// What to draw with, and how.
+// What one machine draws with.
 struct RendererSetup {
     RendererKind kind = RendererKind::kOsmesa;
-    // Of the ray caster; OpenGL has neither, and its library knows its threads by itself.
-    bool shadows = false;     // hard ones, cast by the whole model
-    bool dynamic = false;     // its tree is built anew for every frame, over what is drawn
+    RenderFlags flags{};
+    // Of the ray caster; OpenGL's library knows its threads by itself.
     std::size_t threads = 1;  // that may cast rays, the drawing one among them; at least 1
     bool cuda = false;        // its trees are built on a CUDA device, where there is one, not on the threads
     bool operator==(const RendererSetup&) const = default;

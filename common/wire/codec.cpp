@@ -41,15 +41,13 @@ void put_exchanges(const std::vector<Exchange>& exchanges,
     }
 }
 
-// A ServerSetup's or a Reconfigure's.
-template <class M>
-void put_drawing(const Drawing& drawing, M& out) {
+void put_drawing(const Drawing& drawing, pb::Drawing& out) {
     out.set_octree_depth(static_cast<std::uint32_t>(drawing.cut.depth));
     out.set_sah_objects(static_cast<std::uint32_t>(drawing.cut.objects));
-    out.set_renderer(static_cast<std::uint32_t>(drawing.renderer));
+    for (const RendererKind kind : drawing.renderers) out.add_renderer(static_cast<std::uint32_t>(kind));
     out.set_cull(static_cast<std::uint32_t>(drawing.cull) + 1);
-    out.set_shadows(drawing.shadows);
-    out.set_dynamic(drawing.dynamic);
+    out.set_shadows(drawing.flags.shadows);
+    out.set_dynamic(drawing.flags.dynamic);
 }
 
 void put_report(const Report& m, pb::Report& out) {
@@ -95,7 +93,7 @@ struct Encoder {
         out.set_model(m.model);
         out.set_digest(m.digest.data(), m.digest.size());
         out.set_blob_bytes(m.blob_bytes);
-        put_drawing(m.drawing, out);
+        put_drawing(m.drawing, *out.mutable_drawing());
         out.set_frames_in_flight(m.frames_in_flight);
     }
     void operator()(const DisplaySetup& m) const {
@@ -105,7 +103,9 @@ struct Encoder {
         out.set_frames_in_flight(m.frames_in_flight);
         out.set_live(m.live);
     }
-    void operator()(const Reconfigure& m) const { put_drawing(m.drawing, *head.mutable_reconfigure()); }
+    void operator()(const Reconfigure& m) const {
+        put_drawing(m.drawing, *head.mutable_reconfigure()->mutable_drawing());
+    }
     void operator()(const NeedModel& m) const { head.mutable_need_model()->set_offset(m.offset); }
     void operator()(const ModelPart& m) const { head.mutable_model_part()->set_offset(m.offset); }
     void operator()(const Ready& m) const {
@@ -296,21 +296,27 @@ Result<Message> get_hello(const pb::Hello& in) {
                  in.max_body_bytes()};
 }
 
-template <class M>
-Result<Drawing> get_drawing(const M& in) {
+Result<Drawing> get_drawing(const pb::Drawing& in) {
     if (in.octree_depth() > static_cast<std::uint32_t>(kMaxOctreeDepth))
         return fail("octree_depth: {}, the limit is {}", in.octree_depth(), kMaxOctreeDepth);
     if (in.sah_objects() > kMaxObjectsAsked)
         return fail("sah_objects: {}, the limit is {}", in.sah_objects(), kMaxObjectsAsked);
     if (in.sah_objects() > 0 && in.octree_depth() > 0)
         return fail("sah_objects: {}, and an octree_depth too", in.sah_objects());
-    if (in.renderer() < 1 || in.renderer() > kRendererKindCount)
-        return fail("renderer: {} is none", in.renderer());
+    if (in.renderer_size() < 1 || static_cast<std::size_t>(in.renderer_size()) > kMaxServers)
+        return fail("renderer: {}, the limits are 1 and {}", in.renderer_size(), kMaxServers);
     if (in.cull() < 1 || in.cull() > kCullAlgorithmCount) return fail("cull: {} is none", in.cull());
-    Cut cut{ObjectsBy::kUniform, static_cast<int>(in.octree_depth())};
-    if (in.sah_objects() > 0) cut = {ObjectsBy::kSah, 0, in.sah_objects()};
-    return Drawing{cut, static_cast<RendererKind>(in.renderer()), static_cast<CullAlgorithm>(in.cull() - 1),
-                   in.shadows(), in.dynamic()};
+    Drawing drawing;
+    drawing.cut = {ObjectsBy::kUniform, static_cast<int>(in.octree_depth())};
+    if (in.sah_objects() > 0) drawing.cut = {ObjectsBy::kSah, 0, in.sah_objects()};
+    drawing.renderers.clear();
+    for (const std::uint32_t kind : in.renderer()) {
+        if (kind < 1 || kind > kRendererKindCount) return fail("renderer: {} is none", kind);
+        drawing.renderers.push_back(static_cast<RendererKind>(kind));
+    }
+    drawing.cull = static_cast<CullAlgorithm>(in.cull() - 1);
+    drawing.flags = {in.shadows(), in.dynamic()};
+    return drawing;
 }
 
 Result<Message> get_server_setup(const pb::ServerSetup& in) {
@@ -325,7 +331,7 @@ Result<Message> get_server_setup(const pb::ServerSetup& in) {
         return fail("digest: {} bytes where {} are expected", in.digest().size(), m.digest.size());
     std::memcpy(m.digest.data(), in.digest().data(), m.digest.size());
     m.blob_bytes = in.blob_bytes();
-    const auto drawing = get_drawing(in);
+    const auto drawing = get_drawing(in.drawing());
     if (!drawing) return tl::unexpected(drawing.error());
     m.drawing = *drawing;
     if (const auto s = check_in_flight(in.frames_in_flight()); !s) return tl::unexpected(s.error());
@@ -494,7 +500,7 @@ Result<Message> get_message(const pb::Head& head) {
         case pb::Head::kBye:
             return Bye{};
         case pb::Head::kReconfigure: {
-            const auto drawing = get_drawing(head.reconfigure());
+            const auto drawing = get_drawing(head.reconfigure().drawing());
             return drawing ? Result<Message>(Reconfigure{*drawing}) : tl::unexpected(drawing.error());
         }
         case pb::Head::kAudience:

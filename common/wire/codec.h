@@ -11,7 +11,7 @@ namespace swath {
 
 // A message on the wire: prefix, head (protobuf), body (raw bytes). The prefix is 16 bytes, little-endian:
 // "SWTH", u16 version, u16 zero, u32 head bytes, u32 body bytes.
-inline constexpr std::uint16_t kWireVersion = 5;
+inline constexpr std::uint16_t kWireVersion = 6;
 inline constexpr std::size_t kPrefixBytes = 16;
 
 struct Prefix {

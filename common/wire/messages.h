@@ -7,12 +7,11 @@
 
 #include "common/base/clock.h"
 #include "common/base/ids.h"
-#include "common/cull/cull_algorithm.h"
 #include "common/geometry/camera.h"
 #include "common/geometry/rect.h"
 #include "common/image/picture.h"
 #include "common/image/pixel_codec.h"
-#include "common/render/renderer_kind.h"
+#include "common/render/draw_settings.h"
 #include "common/scene/model_blob.h"
 #include "common/scene/objects.h"
 #include "common/timeline/timeline.h"
@@ -52,17 +51,6 @@ struct Pong {
     Nanoseconds sent{0};  // as in the Ping
     Nanoseconds peer{0};  // the answerer's clock
     bool operator==(const Pong&) const = default;
-};
-
-// How a server cuts the model, draws and culls.
-struct Drawing {
-    Cut cut;
-    RendererKind renderer = RendererKind::kOsmesa;
-    CullAlgorithm cull = CullAlgorithm::kWide;
-    // Of a ray caster (RendererSetup).
-    bool shadows = false;
-    bool dynamic = false;
-    bool operator==(const Drawing&) const = default;
 };
 
 // Client to server: the session. The server loads the model (its own file, its cache, or NeedModel) and says

@@ -27,7 +27,7 @@ DrawThread::~DrawThread() {
 // no two.
 Status DrawThread::configure(const Drawing& drawing) {
     const bool cut = drawing.cut != scene_.cut;
-    if (cut || renderer_of(drawing) != renderer_of(drawing_)) renderer_.reset();
+    if (cut || setup_of(drawing) != setup_of(drawing_)) renderer_.reset();
     if (cut) {
         cull_.reset();
         scene_ = build_objects(std::move(scene_.mesh), granularity_of(drawing.cut));
@@ -39,35 +39,34 @@ Status DrawThread::configure(const Drawing& drawing) {
     }
     drawing_ = drawing;
     if (renderer_) return {};
-    auto renderer = factory_(renderer_of(drawing), scene_);
+    auto renderer = factory_(setup_of(drawing), scene_);
     if (!renderer) return tl::unexpected(renderer.error());
     renderer_ = std::move(*renderer);
     return {};
 }
 
-RendererSetup DrawThread::renderer_of(const Drawing& drawing) const {
-    RendererSetup setup;
-    setup.kind = drawing.renderer;
-    setup.shadows = drawing.shadows;
-    setup.dynamic = drawing.dynamic;
-    setup.threads = threads_;
-    return setup;
+RendererSetup DrawThread::setup_of(const Drawing& drawing) const {
+    return {drawing.renderer_of(server_), drawing.flags, threads_};
 }
 
 Loaded DrawThread::loaded() const {
     return {scene_.objects.size(), scene_.mesh.triangle_count(), renderer_->description(), drawing_, {}};
 }
 
-void DrawThread::load(Mesh mesh, const Drawing& drawing, std::function<void(Result<Loaded>)> done) {
-    thread_.post([this, mesh = std::make_shared<Mesh>(std::move(mesh)), drawing, done = std::move(done)] {
-        try {
-            scene_ = build_objects(std::move(*mesh), granularity_of(drawing.cut));
-            if (const auto status = configure(drawing); !status) return done(tl::unexpected(status.error()));
-            done(loaded());
-        } catch (const std::bad_alloc&) {
-            done(fail("not enough memory for the model"));
-        }
-    });
+void DrawThread::load(Mesh mesh, ServerId server, const Drawing& drawing,
+                      std::function<void(Result<Loaded>)> done) {
+    thread_.post(
+        [this, mesh = std::make_shared<Mesh>(std::move(mesh)), server, drawing, done = std::move(done)] {
+            try {
+                server_ = server;
+                scene_ = build_objects(std::move(*mesh), granularity_of(drawing.cut));
+                if (const auto status = configure(drawing); !status)
+                    return done(tl::unexpected(status.error()));
+                done(loaded());
+            } catch (const std::bad_alloc&) {
+                done(fail("not enough memory for the model"));
+            }
+        });
 }
 
 void DrawThread::reconfigure(const Drawing& drawing, std::function<void(Result<Loaded>)> done) {

@@ -54,15 +54,15 @@ class DrawThread {
 
     // Runs something slow that needs no scene, e.g. reading a model.
     void run(std::function<void()> task) { thread_.post(std::move(task)); }
-    // Cuts the mesh into objects and makes what culls and draws them.
-    void load(Mesh mesh, const Drawing& drawing, std::function<void(Result<Loaded>)> done);
+    // Cuts the mesh into objects and makes what culls and draws them, for this server of the run.
+    void load(Mesh mesh, ServerId server, const Drawing& drawing, std::function<void(Result<Loaded>)> done);
     // Does the same otherwise; where that fails, goes back to what was. Fails only when there is no way back.
     void reconfigure(const Drawing& drawing, std::function<void(Result<Loaded>)> done);
     void draw(DrawJob job, std::function<void(Drawn)> done);
 
   private:
     Status configure(const Drawing& drawing);
-    RendererSetup renderer_of(const Drawing& drawing) const;
+    RendererSetup setup_of(const Drawing& drawing) const;
     Loaded loaded() const;
     Drawn draw_now(DrawJob job);
 
@@ -71,6 +71,7 @@ class DrawThread {
     std::size_t threads_;
     std::unique_ptr<ThreadTeam> team_;    // of thread_
     ObjectSet scene_;                     // of thread_
+    ServerId server_{};                   // of thread_; which of the drawing's renderers is ours
     Drawing drawing_;                     // of thread_; of what there is
     std::unique_ptr<LeafCull> cull_;      // of thread_
     std::unique_ptr<Renderer> renderer_;  // of thread_

@@ -150,7 +150,9 @@ Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
     return {};
 }
 
-void ServerSession::load(Mesh mesh) { draw_thread_->load(std::move(mesh), setup_.drawing, when_loaded()); }
+void ServerSession::load(Mesh mesh) {
+    draw_thread_->load(std::move(mesh), setup_.server, setup_.drawing, when_loaded());
+}
 
 std::function<void(Result<Loaded>)> ServerSession::when_loaded() {
     return [self = shared_from_this()](const Result<Loaded>& result) {

@@ -28,7 +28,8 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     {"common/published", {"common/base", "common/geometry", "common/octree", "common/cull"}},
     // Makes what implements the interface in cull.
     {"common/cullers", {"common/base", "common/geometry", "common/scene", "common/cull", "common/published"}},
-    {"common/render", {"common/base", "common/geometry", "common/scene", "common/image"}},
+    // Its settings say how a server culls, too.
+    {"common/render", {"common/base", "common/geometry", "common/scene", "common/image", "common/cull"}},
     {"common/raycast",
      {"common/base", "common/geometry", "common/scene", "common/octree", "common/image", "common/render"}},
     // It makes the implementations of the interface in render.

@@ -320,24 +320,30 @@ TEST_F(ServerTest, MakesARayCasterAsItIsTold) {
     const auto one = connected_client();
     Drawing drawing = setup().drawing;
     const RendererSetup before = asked_;
-    drawing.renderer = RendererKind::kRaycast;
-    drawing.shadows = true;
+    drawing.renderers = {RendererKind::kRaycast};
+    drawing.flags.shadows = true;
     one->send(Reconfigure{drawing});
     EXPECT_EQ(one->expect<Ready>().refused, "");
-    EXPECT_EQ(asked_, (RendererSetup{RendererKind::kRaycast, true, false, options_.threads}));
-    drawing.shadows = false;
-    drawing.dynamic = true;
+    EXPECT_EQ(asked_, (RendererSetup{RendererKind::kRaycast, {true, false}, options_.threads}));
+    drawing.flags = {.dynamic = true};
     one->send(Reconfigure{drawing});
     EXPECT_EQ(one->expect<Ready>().refused, "");
-    EXPECT_EQ(asked_, (RendererSetup{RendererKind::kRaycast, false, true, options_.threads}));
-    EXPECT_EQ(before, (RendererSetup{RendererKind::kOsmesa, false, false, options_.threads}));
+    EXPECT_EQ(asked_, (RendererSetup{RendererKind::kRaycast, {false, true}, options_.threads}));
+    EXPECT_EQ(before, (RendererSetup{RendererKind::kOsmesa, {false, false}, options_.threads}));
+}
+
+TEST_F(ServerTest, MakesTheRendererThatItsNumberIsDealt) {
+    ServerSetup second = setup(1);
+    second.drawing.renderers = {RendererKind::kOsmesa, RendererKind::kRaycast};
+    const auto one = ready_client(second);
+    EXPECT_EQ(asked_.kind, RendererKind::kRaycast);
 }
 
 TEST_F(ServerTest, GoesOnAsBeforeWhenItCannotDrawDifferently) {
     const auto one = connected_client();
     int made = 0;
     before_renderer_ = [&] { return made++ == 0 ? Status(fail("EGL: no surfaceless platform")) : Status(); };
-    one->send(Reconfigure{{{}, RendererKind::kEgl, CullAlgorithm::kWide}});
+    one->send(Reconfigure{{{{RendererKind::kEgl}, CullAlgorithm::kWide, {}}, {}}});
     const Ready ready = one->expect<Ready>();
     EXPECT_EQ(ready.refused, "EGL: no surfaceless platform");
     EXPECT_EQ(ready.objects, objects_);
@@ -349,7 +355,7 @@ TEST_F(ServerTest, GoesOnAsBeforeWhenItCannotDrawDifferently) {
 TEST_F(ServerTest, EndsTheSessionWhenItCannotGoBackEither) {
     const auto one = connected_client();
     before_renderer_ = [] { return Status(fail("no more memory")); };
-    one->send(Reconfigure{{{}, RendererKind::kEgl, CullAlgorithm::kWide}});
+    one->send(Reconfigure{{{{RendererKind::kEgl}, CullAlgorithm::kWide, {}}, {}}});
     EXPECT_EQ(one->ending(), "no more memory");
 }
 
@@ -367,7 +373,7 @@ TEST_F(ServerTest, RefusesToChangeOutOfTurn) {
     const auto ending_while_changing = [&](const Message& message) {
         const auto one = connected_client();
         *slow = true;
-        one->send(Reconfigure{{{.depth = 2}, RendererKind::kEgl, CullAlgorithm::kWide}});
+        one->send(Reconfigure{{{{RendererKind::kEgl}, CullAlgorithm::kWide, {}}, {.depth = 2}}});
         one->send(message);
         return one->ending();
     };

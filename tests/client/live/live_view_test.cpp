@@ -147,7 +147,7 @@ TEST_F(LiveViewTest, WantsNoFrameUntilTheSetupIsInEffect) {
     draw_all();
     wish(R"({"objects":400,"cull":"none"})");
     EXPECT_FALSE(live_.wants_frame());
-    const LiveSetup wanted{400, {RendererKind::kOsmesa}, CullAlgorithm::kNone};
+    const LiveSetup wanted{400, {{RendererKind::kOsmesa}, CullAlgorithm::kNone}};
     EXPECT_EQ(live_.wanted_setup(), wanted);
     live_.on_setup(wanted);
     EXPECT_EQ(live_.wanted_setup(), std::nullopt);
@@ -160,7 +160,7 @@ TEST_F(LiveViewTest, DoesNotTryARefusedSetupAgainUntilAnotherIsWishedFor) {
     wish(R"({"renderer":"egl"})");
     live_.on_setup_refused(*live_.wanted_setup(), "server 1: no EGL");
     EXPECT_EQ(live_.refused(), (Refusals{{"renderer", "server 1: no EGL"}}));
-    EXPECT_EQ(live_.setup().renderers.front(), RendererKind::kOsmesa);
+    EXPECT_EQ(live_.setup().draw.renderers.front(), RendererKind::kOsmesa);
     wish(R"({"renderer":"egl","camera":[0,0,8,0,0,0,0,1,0,30]})");
     EXPECT_EQ(live_.wanted_setup(), std::nullopt);
     EXPECT_TRUE(live_.wants_frame());
@@ -179,14 +179,14 @@ TEST_F(LiveViewTest, TriesWhatWasWishedForWhileAnotherSetupWasRefused) {
     wish(R"({"renderer":"osmesa","objects":6000})");
     live_.on_setup_refused(tried, "no EGL");
     EXPECT_THAT(live_.refused(), IsEmpty());
-    EXPECT_EQ(live_.wanted_setup(), (LiveSetup{6000, {RendererKind::kOsmesa}, CullAlgorithm::kWide}));
+    EXPECT_EQ(live_.wanted_setup(), (LiveSetup{6000, {{RendererKind::kOsmesa}, CullAlgorithm::kWide}}));
 }
 
 TEST_F(LiveViewTest, TellsTheWishedSetupUnlessItIsRefused) {
     wish(R"({"renderer":"egl"})");
-    EXPECT_EQ(live_.accepted_setup().renderers.front(), RendererKind::kEgl);
+    EXPECT_EQ(live_.accepted_setup().draw.renderers.front(), RendererKind::kEgl);
     live_.on_setup_refused(*live_.wanted_setup(), "no EGL");
-    EXPECT_EQ(live_.accepted_setup().renderers.front(), RendererKind::kOsmesa);
+    EXPECT_EQ(live_.accepted_setup().draw.renderers.front(), RendererKind::kOsmesa);
 }
 
 TEST_F(LiveViewTest, RefusesCamerasThatSinglePrecisionCannotProject) {

@@ -72,7 +72,7 @@ TEST(Notes, OfTheStateSayWhatCountsAndWhatIsRefused) {
 TEST(Notes, SayWhichRenderersTheServersHaveInTurn) {
     LiveView::Settings settings;
     settings.bounds = {{-1, -1, -1}, {1, 1, 1}};
-    settings.start.setup.renderers = {RendererKind::kRaycast, RendererKind::kOsmesa};
+    settings.start.setup.draw.renderers = {RendererKind::kRaycast, RendererKind::kOsmesa};
     LiveView live(settings);
     const auto choices = [&] {
         return Json::parse(session_note({}, &live, {2, 100, 50}))["choices"]["renderers"].dump();

@@ -45,7 +45,7 @@ TEST_F(WishTest, SaysEverythingAtOnce) {
     expected.algorithm = Algorithm::kMahd;
     expected.against = Algorithm::kSortLast;
     expected.servers = 3;
-    expected.setup = {400, {RendererKind::kEgl}, CullAlgorithm::kNone};
+    expected.setup = {400, {{RendererKind::kEgl}, CullAlgorithm::kNone, {}}};
     expected.path = "orbit";
     expected.paused = true;
     expected.step = 2;
@@ -89,10 +89,10 @@ TEST_F(WishTest, OfNoNumberOfServersIsForAllOfThem) {
 
 TEST_F(WishTest, MayHaveRenderersForTheServersInTurn) {
     apply(R"({"renderer":"raycast,osmesa,raycast"})");
-    EXPECT_THAT(wish_.setup.renderers,
+    EXPECT_THAT(wish_.setup.draw.renderers,
                 testing::ElementsAre(RendererKind::kRaycast, RendererKind::kOsmesa, RendererKind::kRaycast));
     apply(R"({"renderer":"egl"})");
-    EXPECT_THAT(wish_.setup.renderers, testing::ElementsAre(RendererKind::kEgl));
+    EXPECT_THAT(wish_.setup.draw.renderers, testing::ElementsAre(RendererKind::kEgl));
 }
 
 TEST_F(WishTest, RefusesValuesOfAnotherKindOrBeyondTheLimits) {

@@ -304,16 +304,16 @@ TEST_F(MachinesTest, ChangeTogetherOrNotAtAll) {
     list({address(one_), address(two_)});
     const auto second = member(two_, 1);
     EXPECT_EQ(said(), "2 members");
-    const auto change = [&](const RunDrawing& drawing, std::size_t objects) {
+    const auto change = [&](const Drawing& drawing, std::size_t objects) {
         EXPECT_TRUE(machines_->reconfigure(drawing, objects, [this](const std::string& refused) {
             log_.push_back("changed: " + refused);
             return Status();
         }));
-        EXPECT_EQ(first_->expect<Reconfigure>().drawing, drawing.of(server_id(0)));
-        EXPECT_EQ(second->expect<Reconfigure>().drawing, drawing.of(server_id(1)));
+        EXPECT_EQ(first_->expect<Reconfigure>().drawing, drawing);
+        EXPECT_EQ(second->expect<Reconfigure>().drawing, drawing);
     };
     const Drawing before{};
-    const RunDrawing deeper{{.depth = 3}, {RendererKind::kEgl, RendererKind::kRaycast}, CullAlgorithm::kNone};
+    const Drawing deeper{{{RendererKind::kEgl, RendererKind::kRaycast}, CullAlgorithm::kNone}, {.depth = 3}};
     change(deeper, 9);
     first_->send(Ready{9, 100, "EGL"});
     second->send(Ready{7, 100, "OSMesa", "no EGL here"});
@@ -334,23 +334,22 @@ TEST_F(MachinesTest, ChangeTogetherOrNotAtAll) {
 }
 
 TEST_F(MachinesTest, AreDealtTheirRenderersInTurnByTheirNumbers) {
-    const RunDrawing mixed{
-        {.depth = 2}, {RendererKind::kRaycast, RendererKind::kOsmesa}, CullAlgorithm::kNone, true, false};
-    EXPECT_EQ(mixed.of(server_id(0)),
-              (Drawing{{.depth = 2}, RendererKind::kRaycast, CullAlgorithm::kNone, true, false}));
-    EXPECT_EQ(mixed.of(server_id(3)),
-              (Drawing{{.depth = 2}, RendererKind::kOsmesa, CullAlgorithm::kNone, true, false}));
+    const Drawing mixed{
+        {{RendererKind::kRaycast, RendererKind::kOsmesa}, CullAlgorithm::kNone, {.shadows = true}},
+        {.depth = 2}};
+    EXPECT_EQ(mixed.renderer_of(server_id(0)), RendererKind::kRaycast);
+    EXPECT_EQ(mixed.renderer_of(server_id(3)), RendererKind::kOsmesa);
     run();
     EXPECT_TRUE(machines_->reconfigure(mixed, 7, [this](const std::string&) {
         log_.emplace_back("changed");
         return Status();
     }));
-    EXPECT_EQ(first_->expect<Reconfigure>().drawing, mixed.of(server_id(0)));
+    EXPECT_EQ(first_->expect<Reconfigure>().drawing, mixed);
     first_->send(Ready{7, 100, "rays"});
     EXPECT_EQ(said(), "changed");
     list({address(one_), address(two_)});
     auto second = std::make_unique<Peer>(loop_, two_.next(), hello_of(Role::kServer));
-    EXPECT_EQ(second->expect<ServerSetup>().drawing, mixed.of(server_id(1)));
+    EXPECT_EQ(second->expect<ServerSetup>().drawing, mixed);
 }
 
 TEST_F(MachinesTest, BringNewcomersUpToDateWhenTheDrawingHasChangedMeanwhile) {
@@ -358,7 +357,7 @@ TEST_F(MachinesTest, BringNewcomersUpToDateWhenTheDrawingHasChangedMeanwhile) {
     list({address(one_), address(two_)});
     auto slow = std::make_unique<Peer>(loop_, two_.next(), hello_of(Role::kServer));
     EXPECT_EQ(slow->expect<ServerSetup>().drawing.cut.depth, 0);
-    EXPECT_TRUE(machines_->reconfigure({{.depth = 3}, {RendererKind::kOsmesa}, CullAlgorithm::kWide}, 9,
+    EXPECT_TRUE(machines_->reconfigure({{{RendererKind::kOsmesa}, CullAlgorithm::kWide}, {.depth = 3}}, 9,
                                        [this](const std::string&) {
                                            log_.emplace_back("changed");
                                            return Status();

@@ -50,7 +50,7 @@ constexpr How kHows[] = {{false, false, 1}, {false, true, 2}, {true, false, 2}, 
 
 std::unique_ptr<Renderer> make(const ObjectSet& scene, const How& how = {}) {
     auto renderer =
-        make_raycast_renderer({RendererKind::kRaycast, how.shadows, how.dynamic, how.threads}, scene);
+        make_raycast_renderer({RendererKind::kRaycast, {how.shadows, how.dynamic}, how.threads}, scene);
     EXPECT_TRUE(renderer.has_value()) << renderer.error().message;
     return renderer ? std::move(*renderer) : nullptr;
 }

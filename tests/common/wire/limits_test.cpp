@@ -83,14 +83,14 @@ TEST(WireLimit, OfServerSetup) {
                  in + "model: 4097 bytes, the limit is 4096");
     setup.expect([](auto& m) { m.set_digest(std::string(31, 'x')); },
                  in + "digest: 31 bytes where 32 are expected");
-    setup.expect([](auto& m) { m.set_octree_depth(kMaxOctreeDepth + 1); },
+    setup.expect([](auto& m) { m.mutable_drawing()->set_octree_depth(kMaxOctreeDepth + 1); },
                  in + "octree_depth: 11, the limit is 10");
-    setup.expect([](auto& m) { m.set_sah_objects(1'000'001); },
+    setup.expect([](auto& m) { m.mutable_drawing()->set_sah_objects(1'000'001); },
                  in + "sah_objects: 1000001, the limit is 1000000");
-    setup.expect([](auto& m) { m.set_renderer(0); }, in + "renderer: 0 is none");
-    setup.expect([](auto& m) { m.set_renderer(4); }, in + "renderer: 4 is none");
-    setup.expect([](auto& m) { m.set_cull(0); }, in + "cull: 0 is none");
-    setup.expect([](auto& m) { m.set_cull(5); }, in + "cull: 5 is none");
+    setup.expect([](auto& m) { m.mutable_drawing()->set_renderer(0, 0); }, in + "renderer: 0 is none");
+    setup.expect([](auto& m) { m.mutable_drawing()->set_renderer(0, 4); }, in + "renderer: 4 is none");
+    setup.expect([](auto& m) { m.mutable_drawing()->set_cull(0); }, in + "cull: 0 is none");
+    setup.expect([](auto& m) { m.mutable_drawing()->set_cull(5); }, in + "cull: 5 is none");
     setup.expect([](auto& m) { m.set_frames_in_flight(0); },
                  in + "frames_in_flight: 0, the limits are 1 and 8");
     setup.expect([](auto& m) { m.set_frames_in_flight(9); },
@@ -134,17 +134,25 @@ TEST(WireLimit, OfLost) {
 TEST(WireLimit, OfReconfigure) {
     const Table<pb::Reconfigure> drawing(Reconfigure{}, &pb::Head::mutable_reconfigure);
     const std::string in = "a garbled reconfigure message: ";
-    drawing.expect([](auto& m) { m.set_octree_depth(11); }, in + "octree_depth: 11, the limit is 10");
-    drawing.expect([](auto& m) { m.set_sah_objects(1'000'001); },
+    drawing.expect([](auto& m) { m.mutable_drawing()->set_octree_depth(11); },
+                   in + "octree_depth: 11, the limit is 10");
+    drawing.expect([](auto& m) { m.mutable_drawing()->set_sah_objects(1'000'001); },
                    in + "sah_objects: 1000001, the limit is 1000000");
     drawing.expect(
         [](auto& m) {
-            m.set_octree_depth(1);
-            m.set_sah_objects(2);
+            m.mutable_drawing()->set_octree_depth(1);
+            m.mutable_drawing()->set_sah_objects(2);
         },
         in + "sah_objects: 2, and an octree_depth too");
-    drawing.expect([](auto& m) { m.set_renderer(4); }, in + "renderer: 4 is none");
-    drawing.expect([](auto& m) { m.set_cull(0); }, in + "cull: 0 is none");
+    drawing.expect([](auto& m) { m.mutable_drawing()->set_renderer(0, 4); }, in + "renderer: 4 is none");
+    drawing.expect([](auto& m) { m.mutable_drawing()->clear_renderer(); },
+                   in + "renderer: 0, the limits are 1 and 1024");
+    drawing.expect(
+        [](auto& m) {
+            for (int i = 0; i < 1024; ++i) m.mutable_drawing()->add_renderer(1);
+        },
+        in + "renderer: 1025, the limits are 1 and 1024");
+    drawing.expect([](auto& m) { m.mutable_drawing()->set_cull(0); }, in + "cull: 0 is none");
 }
 
 TEST(WireLimit, OfNotesAndStreams) {

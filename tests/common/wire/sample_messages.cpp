@@ -98,8 +98,13 @@ class Maker {
     Drawing drawing() {
         const Cut uniform{ObjectsBy::kUniform, static_cast<int>(below(kMaxOctreeDepth + 1)), 0};
         const Cut sah{ObjectsBy::kSah, 0, 1 + below(kMaxObjectsAsked)};
-        return {below(2) == 0 ? uniform : sah, kRendererKinds[below(kRendererKindCount)],
-                static_cast<CullAlgorithm>(below(kCullAlgorithmCount)), below(2) == 0, below(2) == 0};
+        Drawing m;
+        m.cut = below(2) == 0 ? uniform : sah;
+        m.renderers.resize(1 + below(3));
+        for (RendererKind& kind : m.renderers) kind = kRendererKinds[below(kRendererKindCount)];
+        m.cull = static_cast<CullAlgorithm>(below(kCullAlgorithmCount));
+        m.flags = {below(2) == 0, below(2) == 0};
+        return m;
     }
     Connect connect() {
         Connect m{text(), {}};
