@@ -107,7 +107,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--view-max-size", max_view, "largest picture that viewers may ask for")
         ->capture_default_str()
         ->needs(viewer);
-    app.add_option("--algorithm", algorithm, "how to divide a frame: " + algorithm_names())
+    app.add_option("--algorithm", algorithm, "how to divide a frame: " + name_list<Algorithm>())
         ->capture_default_str();
     auto* draw_with =
         app.add_option("--renderer", renderer,
@@ -115,7 +115,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
                        "[the first of the three that works on this machine]");
     for (const FlagOption& one : kFlagOptions) app.add_flag(one.name, options.draw.flags.*one.flag, one.help);
     app.add_option("--cull", cull,
-                   "how servers find what they draw: " + cull_algorithm_names() + " (all of their part)")
+                   "how servers find what they draw: " + name_list<CullAlgorithm>() + " (all of their part)")
         ->capture_default_str();
     app.add_option("--objects-by", objects_by,
                    "objects are cells of a uniform octree, or of a SAH octree: uniform, sah")
@@ -173,10 +173,10 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     if (const auto s = parse_colour(background, options.background); !s) return refuse(s.error());
     if (light_at->count() > 0)
         if (const auto s = parse_light(light, options.light); !s) return refuse(s.error());
-    const auto parsed = parse_algorithm(algorithm);
+    const auto parsed = parse<Algorithm>(algorithm);
     if (!parsed) return refuse(parsed.error());
     options.algorithm = *parsed;
-    const auto parsed_cull = parse_cull_algorithm(cull);
+    const auto parsed_cull = parse<CullAlgorithm>(cull);
     if (!parsed_cull) return refuse({"--cull: " + parsed_cull.error().message});
     options.draw.cull = *parsed_cull;
     if (draw_with->count() > 0) {
@@ -191,16 +191,14 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
             if (options.draw.flags.*one.flag)
                 return refuse({fmt::format("{}: needs a ray caster, and --renderer is '{}'", one.name,
                                            draw_with->count() > 0 ? renderer : "osmesa, where it works")});
-    const auto by = parse_objects_by(objects_by);
+    const auto by = parse<ObjectsBy>(objects_by);
     if (!by) return refuse({"--objects-by: " + by.error().message});
     options.granularity.by = *by;
     if (octree->count() > 0 && *by == ObjectsBy::kSah)
         return refuse({"--octree-depth: a SAH octree has no one depth; with --objects-by sah say --objects"});
     if (octree->count() > 0) options.granularity.depth = depth;
     if (frame_count->count() > 0) options.frames = frames;
-    options.format = options.out.empty() ? PictureFormat::kNone
-                     : format == "jpeg"  ? PictureFormat::kJpeg
-                                         : PictureFormat::kPng;
+    options.format = options.out.empty() ? PictureFormat::kNone : *parse<PictureFormat>(format);
     if (!options.timeline.empty() && !options.timeline.ends_with(".csv") &&
         !options.timeline.ends_with(".json"))
         return refuse(

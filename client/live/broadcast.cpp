@@ -78,7 +78,7 @@ FrameFindings Broadcast::findings_of(const FinishedFrame& frame, Nanoseconds now
 
 std::vector<Comparison> Broadcast::compare_all(const FinishedFrame& frame) {
     std::vector<Contender> contenders;
-    for (const Algorithm algorithm : all_algorithms()) {
+    for (const Algorithm algorithm : kAll<Algorithm>) {
         auto& partitioner = partitioners_[algorithm];
         if (!partitioner) partitioner = make_partitioner(algorithm, scene_->objects);
         contenders.push_back({algorithm, partitioner.get()});

@@ -41,16 +41,16 @@ void put_box(const Box& box, Json& list) {
         for (int i = 0; i < 3; ++i) list.push_back(decimal(corner[i]));
 }
 
-template <class Names>
-Json names_of(const Names& all) {
+template <NamedEnum E>
+Json all_names() {
     Json names = Json::array();
-    for (const auto& one : all) names.push_back(name_of(one));
+    for (const E one : kAll<E>) names.push_back(name_of(one));
     return names;
 }
 
 // Each alone, and what the run was started with.
 Json renderer_choices(const LiveView* live) {
-    Json names = names_of(kRendererKinds);
+    Json names = all_names<RendererKind>();
     if (live != nullptr && live->start().setup.draw.renderers.size() > 1)
         names.push_back(renderer_list(live->start().setup.draw.renderers));
     return names;
@@ -80,9 +80,9 @@ std::string session_note(const SessionFacts& facts, const LiveView* live, const 
         servers.push_back({{"name", server_name(server_id(i))},
                            {"address", facts.servers[i].address},
                            {"renderer", facts.servers[i].renderer}});
-    note["choices"] = {{"algorithms", names_of(all_algorithms())},
+    note["choices"] = {{"algorithms", all_names<Algorithm>()},
                        {"renderers", renderer_choices(live)},
-                       {"culls", names_of(all_cull_algorithms())},
+                       {"culls", all_names<CullAlgorithm>()},
                        {"paths", {"orbit", "random"}},
                        {"objects", {100, 400, 1500, 6000, 25'000}},
                        {"max_width", limits.max_width},
@@ -179,11 +179,10 @@ double ms(Nanoseconds time) { return std::round(static_cast<double>(time.count()
 Json machine_json(const MachineTimeline& machine) {
     Json spans = Json::array();
     for (const Span& span : machine.spans)
-        spans.push_back({name(span.phase), ms(span.begin), ms(span.end), ms(span.cpu)});
+        spans.push_back({name_of(span.phase), ms(span.begin), ms(span.end), ms(span.cpu)});
     Json counters = Json::object();
-    for (std::size_t c = 0; c < kCounterCount; ++c)
-        if (machine.counters[c] > 0)
-            counters[std::string(name(static_cast<Counter>(c)))] = machine.counters[c];
+    for (const Counter counter : kAll<Counter>)
+        if (machine[counter] > 0) counters[std::string(name_of(counter))] = machine[counter];
     return {{"name", machine.machine}, {"spans", std::move(spans)}, {"counters", std::move(counters)}};
 }
 
@@ -191,8 +190,8 @@ Json prediction_json(const Prediction& prediction) {
     Json machines = Json::array();
     for (const MachinePrediction& machine : prediction.machines) {
         Json phases = Json::object();
-        for (std::size_t p = 0; p < kPhaseCount; ++p)
-            if (machine.ms[p] > 0) phases[std::string(name(static_cast<Phase>(p)))] = machine.ms[p];
+        for (const Phase phase : kAll<Phase>)
+            if (machine[phase] > 0) phases[std::string(name_of(phase))] = machine[phase];
         machines.push_back({{"name", machine.name}, {"phases", std::move(phases)}});
     }
     return {{"machines", std::move(machines)}, {"frame", prediction.frame_ms}};
@@ -229,7 +228,7 @@ std::string frame_note(const FinishedFrame& frame, const FrameFindings& findings
     for (const MachineTimeline& machine : frame.timeline.machines) machines.push_back(machine_json(machine));
     Json& critical = note["critical"] = Json::array();
     for (const CriticalSpan& span : findings.critical)
-        critical.push_back({span.machine, name(span.phase), ms(span.begin), ms(span.end)});
+        critical.push_back({span.machine, name_of(span.phase), ms(span.begin), ms(span.end)});
     return text_of(note);
 }
 

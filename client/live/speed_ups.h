@@ -15,7 +15,7 @@ class SpeedUps {
   public:
     struct Point {
         std::size_t servers = 1;
-        double interval_ms = 0;  // from one frame's end to the next one's
+        double interval_ms = 0;     // from one frame's end to the next one's
         double busiest_cpu_ms = 0;  // thread time of the busiest server, as if each had a core of its own
         std::optional<double> predicted_ms;
     };

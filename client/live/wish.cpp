@@ -38,7 +38,7 @@ Status take_name(const Json& value, const Parse& parse, To& to) {
 }
 
 Status take_against(const Json& value, std::optional<Algorithm>& to) {
-    if (!value.is_null()) return take_name(value, parse_algorithm, to);
+    if (!value.is_null()) return take_name(value, parse<Algorithm>, to);
     to.reset();
     return {};
 }
@@ -108,14 +108,14 @@ Result<Refusals> apply_wish(std::string_view text, std::uint32_t by, const WishL
     field("camera", [&](const Json& value) { return take_camera(value, wish.camera); });
     if (json.contains("width") && json.contains("height"))
         field("width", [&](const Json& value) { return take_size(value, json["height"], limits, wish); });
-    field("algorithm", [&](const Json& value) { return take_name(value, parse_algorithm, wish.algorithm); });
+    field("algorithm", [&](const Json& value) { return take_name(value, parse<Algorithm>, wish.algorithm); });
     field("against", [&](const Json& value) { return take_against(value, wish.against); });
     field("servers", [&](const Json& value) { return take_servers(value, limits.servers, wish.servers); });
     field("objects", [&](const Json& value) { return take(value, 1, kMaxObjectsAsked, wish.setup.objects); });
     field("renderer",
           [&](const Json& value) { return take_name(value, parse_renderers, wish.setup.draw.renderers); });
     field("cull",
-          [&](const Json& value) { return take_name(value, parse_cull_algorithm, wish.setup.draw.cull); });
+          [&](const Json& value) { return take_name(value, parse<CullAlgorithm>, wish.setup.draw.cull); });
     field("path", [&](const Json& value) { return take_path(value, wish.path); });
     field("paused", [&](const Json& value) { return take(value, wish.paused); });
     field("step", [&](const Json& value) { return take(value, 0, kAny, wish.step); });

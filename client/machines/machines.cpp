@@ -211,13 +211,13 @@ void Machines::drop(ServerId id, const std::string& why) {
 
 Status Machines::on_display_hello(const Hello& hello) {
     if (hello.role != Role::kDisplay)
-        return fail("this is a {}, a {} is expected", name(hello.role), name(Role::kDisplay));
+        return fail("this is a {}, a {} is expected", name_of(hello.role), name_of(Role::kDisplay));
     return tell_display(DisplaySetup{job_.session, job_.format, job_.frames_in_flight, job_.live});
 }
 
 Status Machines::on_hello(ServerId id, const Hello& hello) {
     if (hello.role != Role::kServer)
-        return fail("this is a {}, a {} is expected", name(hello.role), name(Role::kServer));
+        return fail("this is a {}, a {} is expected", name_of(hello.role), name_of(Role::kServer));
     Server& server = servers_.at(id);
     server.drawing = job_.drawing;
     return tell(id, ServerSetup{job_.session, id, job_.model, digest_, job_.blob.size(), server.drawing,

@@ -2,12 +2,10 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <string>
-#include <string_view>
 
 #include "client/partition/projection.h"
 #include "common/base/ids.h"
-#include "common/base/result.h"
+#include "common/base/names.h"
 #include "common/plan/frame_plan.h"
 
 namespace swath {
@@ -37,13 +35,12 @@ enum class Algorithm {
     kSortLast,  // groups made once in model space, at pose 0, interleaved tiles (Samanta 2000, section 7.4)
 };
 
-// All, in the order in which they are named everywhere.
-std::span<const Algorithm> all_algorithms();
-// "hybrid", "mahd", "kd-split", "sort-last".
-std::string_view name_of(Algorithm algorithm);
-// All names, separated by commas.
-std::string algorithm_names();
-Result<Algorithm> parse_algorithm(std::string_view name);
+template <>
+inline constexpr auto kNames<Algorithm> = names_of<Algorithm>("algorithm",
+                                                              {{Algorithm::kHybrid, "hybrid"},
+                                                               {Algorithm::kMahd, "mahd"},
+                                                               {Algorithm::kKdSplit, "kd-split"},
+                                                               {Algorithm::kSortLast, "sort-last"}});
 Grouping grouping_of(Algorithm algorithm);
 
 // Makes a partitioner for this model; copies what it needs of `objects`. Every PartitionInput must have the

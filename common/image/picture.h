@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/base/buffer.h"
+#include "common/base/names.h"
 #include "common/base/result.h"
 
 namespace swath {
@@ -26,6 +27,9 @@ inline constexpr int kMaxPictureSide = 16384;
 inline constexpr std::int64_t kMaxPicturePixels = std::int64_t{1} << 26;
 
 enum class PictureFormat { kNone, kPng, kJpeg };
+template <>
+inline constexpr auto kNames<PictureFormat> = names_of<PictureFormat>(
+    "format", {{PictureFormat::kNone, "none"}, {PictureFormat::kPng, "png"}, {PictureFormat::kJpeg, "jpeg"}});
 
 // Makes a file's bytes: PNG (lossless and fast; equal pictures give equal bytes) or JPEG (quality 90, 4:2:0).
 // Rows are top-down in the file. CHECKs that `format` is not kNone, that both sides are 1 to kMaxPictureSide

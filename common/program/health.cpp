@@ -38,7 +38,7 @@ Status check_health(const Address& listening, Role role) {
         connection->start({[&, weak](const Hello& hello) -> Status {
                                status = hello.role == role ? Status()
                                                            : fail("{} is a {}, not a {}", to_string(address),
-                                                                  name(hello.role), name(role));
+                                                                  name_of(hello.role), name_of(role));
                                weak.lock()->finish();
                                return {};
                            },

@@ -102,7 +102,8 @@ class RaycastRenderer final : public Renderer {
                 const RayPacket packet = rays.packet(x, y);
                 PacketHits hits;
                 kernels_.nearest_by_depth(tree, packet, hits);
-                const std::uint32_t shadowed = setup_.flags.shadows ? in_shadow(casters, packet, hits, view) : 0;
+                const std::uint32_t shadowed =
+                    setup_.flags.shadows ? in_shadow(casters, packet, hits, view) : 0;
                 for (int lane = 0; lane < kPacketRays; ++lane) {
                     const int px = x + lane % kSide;
                     const int py = y + lane / kSide;

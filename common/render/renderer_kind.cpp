@@ -6,31 +6,6 @@
 
 namespace swath {
 
-std::string_view name_of(RendererKind kind) {
-    switch (kind) {
-        case RendererKind::kOsmesa:
-            return "osmesa";
-        case RendererKind::kEgl:
-            return "egl";
-        case RendererKind::kRaycast:
-            return "raycast";
-    }
-    return "?";
-}
-
-Result<RendererKind> parse_renderer(std::string_view name) {
-    for (const RendererKind kind : kRendererKinds)
-        if (name_of(kind) == name) return kind;
-    return fail("renderer '{}' is not known; there are: {}", name, renderer_names());
-}
-
-std::string renderer_names() {
-    std::string names;
-    for (const RendererKind kind : kRendererKinds)
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(kind));
-    return names;
-}
-
 std::string renderer_list(std::span<const RendererKind> kinds) {
     std::string names;
     for (const RendererKind kind : kinds)
@@ -46,10 +21,9 @@ Result<std::vector<RendererKind>> parse_renderers(std::string_view names) {
     std::vector<RendererKind> kinds;
     for (bool more = true; more;) {
         const std::size_t comma = names.find(',');
-        const auto kind = parse_renderer(names.substr(0, comma));
-        if (!kind) return tl::unexpected(kind.error());
+        SWATH_TRY(const RendererKind kind, parse<RendererKind>(names.substr(0, comma)));
         if (kinds.size() == kMaxServers) return fail("renderers: more than {}", kMaxServers);
-        kinds.push_back(*kind);
+        kinds.push_back(kind);
         more = comma != std::string_view::npos;
         if (more) names.remove_prefix(comma + 1);
     }

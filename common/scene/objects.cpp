@@ -137,14 +137,6 @@ void add_leaves(ObjectSet& set, Object& object, std::uint32_t leaf_triangles) {
 
 }  // namespace
 
-std::string_view name_of(ObjectsBy by) { return by == ObjectsBy::kSah ? "sah" : "uniform"; }
-
-Result<ObjectsBy> parse_objects_by(std::string_view name) {
-    for (const ObjectsBy by : {ObjectsBy::kUniform, ObjectsBy::kSah})
-        if (name_of(by) == name) return by;
-    return fail("'{}' is not known; there are: uniform, sah", name);
-}
-
 Granularity granularity_of(const Cut& cut) {
     Granularity granularity;
     granularity.by = cut.by;

@@ -2,11 +2,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "common/base/ids.h"
-#include "common/base/result.h"
+#include "common/base/names.h"
 #include "common/geometry/box.h"
 #include "common/scene/mesh.h"
 
@@ -42,8 +41,9 @@ struct Leaf {
 // The octree whose cells objects are: the uniform one, all at one depth, or one whose planes follow the
 // surface area heuristic (common/scene/sah_objects.h).
 enum class ObjectsBy : std::uint8_t { kUniform, kSah };
-std::string_view name_of(ObjectsBy by);
-Result<ObjectsBy> parse_objects_by(std::string_view name);
+template <>
+inline constexpr auto kNames<ObjectsBy> = names_of<ObjectsBy>("", {{ObjectsBy::kUniform, "uniform"},
+                                                                   {ObjectsBy::kSah, "sah"}});
 
 // The fineness of the cut of a model into objects, and of these into leaves.
 struct Granularity {

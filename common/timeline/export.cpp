@@ -82,7 +82,7 @@ Json complete_event(const PlacedSpan& placed, std::size_t pid, Nanoseconds origi
     const Span& span = placed.span;
     Json args = {{"frame", placed.frame}};
     if (span.cpu.count() > 0) args["cpu_ms"] = milliseconds(span.cpu);
-    return {{"name", name(span.phase)},
+    return {{"name", name_of(span.phase)},
             {"cat", span.phase == Phase::kWait ? "wait" : "busy"},
             {"ph", "X"},
             {"pid", pid},
@@ -104,12 +104,12 @@ std::string to_csv(std::span<const FrameTimeline> frames) {
             const std::string machine_name = csv_field(machine.machine);
             for (const Span& span : machine.spans)
                 fmt::format_to(out, "{},{},span,{},{:.6f},{:.6f},{:.6f},\n", frame.frame, machine_name,
-                               name(span.phase), milliseconds(span.begin - origin),
+                               name_of(span.phase), milliseconds(span.begin - origin),
                                milliseconds(span.end - origin), milliseconds(span.cpu));
             for (std::size_t i = 0; i < kCounterCount; ++i)
                 if (machine.counters[i] != 0)
                     fmt::format_to(out, "{},{},counter,{},,,,{}\n", frame.frame, machine_name,
-                                   name(static_cast<Counter>(i)), machine.counters[i]);
+                                   name_of(static_cast<Counter>(i)), machine.counters[i]);
         }
     }
     return csv;

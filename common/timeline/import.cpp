@@ -20,14 +20,6 @@ bool parse_all(std::string_view text, T& value) {
     return error == std::errc{} && end == text.data() + text.size();
 }
 
-// The phase or counter whose name is `text`.
-template <class T>
-std::optional<T> named(std::string_view text, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-        if (name(static_cast<T>(i)) == text) return static_cast<T>(i);
-    return std::nullopt;
-}
-
 Result<Nanoseconds> time(std::string_view field, std::string_view text) {
     double ms = 0;
     if (!parse_all(text, ms) || !(std::abs(ms) <= kMaxMs))
@@ -82,7 +74,7 @@ class Reader {
     }
 
     Status add_span(const std::vector<std::string>& fields) {
-        const auto phase = named<Phase>(fields[kName], kPhaseCount);
+        const auto phase = parse<Phase>(fields[kName]);
         if (!phase) return fail("name: '{}' is not a phase", fields[kName]);
         SWATH_TRY(const Nanoseconds begin, time("begin_ms", fields[kBegin]));
         SWATH_TRY(const Nanoseconds end, time("end_ms", fields[kEnd]));
@@ -94,7 +86,7 @@ class Reader {
     }
 
     Status add_count(const std::vector<std::string>& fields) {
-        const auto counter = named<Counter>(fields[kName], kCounterCount);
+        const auto counter = parse<Counter>(fields[kName]);
         if (!counter) return fail("name: '{}' is not a counter", fields[kName]);
         SWATH_TRY_VOID(expect_empty(fields, {kBegin, kEnd, kCpu}));
         std::uint64_t count = 0;

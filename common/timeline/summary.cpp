@@ -116,7 +116,7 @@ std::vector<Column> columns_of(const std::vector<Row>& rows) {
     std::vector<Column> columns;
     for (std::size_t i = 0; i < kPhaseCount; ++i) {
         if (std::ranges::all_of(rows, [&](const Row& row) { return row.ms[i] == 0; })) continue;
-        const std::string_view phase = name(static_cast<Phase>(i));
+        const std::string_view phase = name_of(static_cast<Phase>(i));
         const std::size_t space = phase.find(' ');
         Column column;
         if (space == std::string_view::npos)

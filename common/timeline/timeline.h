@@ -7,6 +7,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/ids.h"
+#include "common/base/names.h"
 
 namespace swath {
 
@@ -25,8 +26,19 @@ enum class Phase : std::uint8_t {
     kEncode,      // display: the picture into a PNG or JPEG
     kWait,        // any: nothing to do for the frame, because others are not ready
 };
-inline constexpr std::size_t kPhaseCount = 11;
-std::string_view name(Phase phase);  // "partition", "cull", "render", "pixel read", ...; CHECKs the range
+template <>
+inline constexpr auto kNames<Phase> = names_of<Phase>("phase", {{Phase::kPartition, "partition"},
+                                                                {Phase::kCull, "cull"},
+                                                                {Phase::kRender, "render"},
+                                                                {Phase::kPixelRead, "pixel read"},
+                                                                {Phase::kSwap, "swap"},
+                                                                {Phase::kPixelWrite, "pixel write"},
+                                                                {Phase::kFinalRead, "final read"},
+                                                                {Phase::kSend, "send"},
+                                                                {Phase::kAssemble, "assemble"},
+                                                                {Phase::kEncode, "encode"},
+                                                                {Phase::kWait, "wait"}});
+inline constexpr std::size_t kPhaseCount = kAll<Phase>.size();
 
 // A number that a machine counts for a frame.
 enum class Counter : std::uint8_t {
@@ -40,8 +52,18 @@ enum class Counter : std::uint8_t {
     kLeaves,          // server: drawn after culling
     kSplitLevel,      // server: at which A2SSB shared an octree among threads; 0 also if it did not
 };
-inline constexpr std::size_t kCounterCount = 9;
-std::string_view name(Counter counter);  // "triangles", "objects", "swap_pixels", ...
+template <>
+inline constexpr auto kNames<Counter> = names_of<Counter>("counter",
+                                                          {{Counter::kTriangles, "triangles"},
+                                                           {Counter::kObjects, "objects"},
+                                                           {Counter::kSwapPixels, "swap_pixels"},
+                                                           {Counter::kSwapBytes, "swap_bytes"},
+                                                           {Counter::kTilePixels, "tile_pixels"},
+                                                           {Counter::kTileBytes, "tile_bytes"},
+                                                           {Counter::kReceivedPixels, "received_pixels"},
+                                                           {Counter::kLeaves, "leaves"},
+                                                           {Counter::kSplitLevel, "split_level"}});
+inline constexpr std::size_t kCounterCount = kAll<Counter>.size();
 
 // A time in which a machine did one phase. Times are on the client's clock.
 struct Span {

@@ -45,7 +45,7 @@ void put_drawing(const Drawing& drawing, pb::Drawing& out) {
     out.set_octree_depth(static_cast<std::uint32_t>(drawing.cut.depth));
     out.set_sah_objects(static_cast<std::uint32_t>(drawing.cut.objects));
     for (const RendererKind kind : drawing.renderers) out.add_renderer(static_cast<std::uint32_t>(kind));
-    out.set_cull(static_cast<std::uint32_t>(drawing.cull) + 1);
+    out.set_cull(static_cast<std::uint32_t>(drawing.cull));
     out.set_shadows(drawing.flags.shadows);
     out.set_dynamic(drawing.flags.dynamic);
 }
@@ -289,7 +289,7 @@ M get_pixels(const pb::Pixels& in) {
 }
 
 Result<Message> get_hello(const pb::Hello& in) {
-    if (in.role() < 1 || in.role() > 4) return fail("role: {} is none", in.role());
+    if (!value_of<Role>(in.role())) return fail("role: {} is none", in.role());
     const auto server = get_server(in.server(), "server");
     if (!server) return tl::unexpected(server.error());
     return Hello{static_cast<Role>(in.role()), in.session(), *server, in.max_head_bytes(),
@@ -305,16 +305,16 @@ Result<Drawing> get_drawing(const pb::Drawing& in) {
         return fail("sah_objects: {}, and an octree_depth too", in.sah_objects());
     if (in.renderer_size() < 1 || static_cast<std::size_t>(in.renderer_size()) > kMaxServers)
         return fail("renderer: {}, the limits are 1 and {}", in.renderer_size(), kMaxServers);
-    if (in.cull() < 1 || in.cull() > kCullAlgorithmCount) return fail("cull: {} is none", in.cull());
+    if (!value_of<CullAlgorithm>(in.cull())) return fail("cull: {} is none", in.cull());
     Drawing drawing;
     drawing.cut = {ObjectsBy::kUniform, static_cast<int>(in.octree_depth())};
     if (in.sah_objects() > 0) drawing.cut = {ObjectsBy::kSah, 0, in.sah_objects()};
     drawing.renderers.clear();
     for (const std::uint32_t kind : in.renderer()) {
-        if (kind < 1 || kind > kRendererKindCount) return fail("renderer: {} is none", kind);
+        if (!value_of<RendererKind>(kind)) return fail("renderer: {} is none", kind);
         drawing.renderers.push_back(static_cast<RendererKind>(kind));
     }
-    drawing.cull = static_cast<CullAlgorithm>(in.cull() - 1);
+    drawing.cull = static_cast<CullAlgorithm>(in.cull());
     drawing.flags = {in.shadows(), in.dynamic()};
     return drawing;
 }
@@ -340,8 +340,7 @@ Result<Message> get_server_setup(const pb::ServerSetup& in) {
 }
 
 Result<Message> get_display_setup(const pb::DisplaySetup& in) {
-    if (in.format() > static_cast<std::uint32_t>(PictureFormat::kJpeg))
-        return fail("format: {} is none", in.format());
+    if (!value_of<PictureFormat>(in.format())) return fail("format: {} is none", in.format());
     if (const auto s = check_in_flight(in.frames_in_flight()); !s) return tl::unexpected(s.error());
     return DisplaySetup{in.session(), static_cast<PictureFormat>(in.format()), in.frames_in_flight(),
                         in.live()};
@@ -445,7 +444,7 @@ Result<Message> get_assemble_frame(const pb::AssembleFrame& in) {
 }
 
 Result<Message> get_note(const pb::Note& in) {
-    if (in.topic() < 1 || in.topic() > kNoteTopicCount) return fail("topic: {} is none", in.topic());
+    if (!value_of<NoteTopic>(in.topic())) return fail("topic: {} is none", in.topic());
     return Note{static_cast<NoteTopic>(in.topic()), in.frame()};
 }
 
@@ -565,20 +564,6 @@ Result<Message> decode_head(std::span<const std::uint8_t> bytes) {
         return fail("a garbled {} message: {}", field->name(), message.error().message);
     }
     return message;
-}
-
-std::string_view name(Role role) {
-    switch (role) {
-        case Role::kClient:
-            return "client";
-        case Role::kServer:
-            return "server";
-        case Role::kDisplay:
-            return "display";
-        case Role::kProbe:
-            return "probe";
-    }
-    return "?";
 }
 
 std::string_view name(const Message& message) {

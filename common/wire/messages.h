@@ -7,6 +7,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/ids.h"
+#include "common/base/names.h"
 #include "common/geometry/camera.h"
 #include "common/geometry/rect.h"
 #include "common/image/picture.h"
@@ -29,7 +30,11 @@ inline constexpr std::size_t kMaxVisibleCounts = std::size_t{1} << 19;
 
 // A probe wants to know that somebody answers, no more.
 enum class Role : std::uint32_t { kClient = 1, kServer = 2, kDisplay = 3, kProbe = 4 };
-std::string_view name(Role role);
+template <>
+inline constexpr auto kNames<Role> = names_of<Role>("role", {{Role::kClient, "client"},
+                                                             {Role::kServer, "server"},
+                                                             {Role::kDisplay, "display"},
+                                                             {Role::kProbe, "probe"}});
 
 // The first message of both ends of every connection.
 struct Hello {
@@ -201,7 +206,14 @@ struct Wish {
 inline constexpr std::size_t kMaxWishBytes = std::size_t{16} << 10;
 // Client to display: something for viewers, as the body (JSON, docs/viewer.md), at most kMaxNoteBytes.
 enum class NoteTopic : std::uint32_t { kPlan = 1, kSession, kObjects, kState, kFrame, kSpeedup, kTrace };
-inline constexpr std::uint32_t kNoteTopicCount = 7;
+template <>
+inline constexpr auto kNames<NoteTopic> = names_of<NoteTopic>("topic", {{NoteTopic::kPlan, "plan"},
+                                                                        {NoteTopic::kSession, "session"},
+                                                                        {NoteTopic::kObjects, "objects"},
+                                                                        {NoteTopic::kState, "state"},
+                                                                        {NoteTopic::kFrame, "frame"},
+                                                                        {NoteTopic::kSpeedup, "speedup"},
+                                                                        {NoteTopic::kTrace, "trace"}});
 struct Note {
     NoteTopic topic = NoteTopic::kPlan;
     FrameNumber frame = 0;  // kPlan: whose, sent before its AssembleFrame

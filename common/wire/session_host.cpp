@@ -62,14 +62,14 @@ void SessionHost::on_socket(tcp::socket socket) {
 Status SessionHost::on_hello(const std::shared_ptr<Connection>& connection, const Hello& hello) {
     switch (hello.role) {
         case Role::kClient:
-            if (leaving_) return fail("this {} is being stopped", name(options_.role));
-            if (session_) return fail("this {} is busy with another client", name(options_.role));
+            if (leaving_) return fail("this {} is being stopped", name_of(options_.role));
+            if (session_) return fail("this {} is busy with another client", name_of(options_.role));
             spdlog::info("client {}: connected", connection->peer());
             newcomers_.erase(connection);
             session_ = make_session_(connection);
             return {};
         case Role::kServer: {
-            if (!session_) return fail("this {} is in no session", name(options_.role));
+            if (!session_) return fail("this {} is in no session", name_of(options_.role));
             const auto status = session_->on_peer(connection, hello);
             if (status) newcomers_.erase(connection);
             return status;
@@ -79,7 +79,7 @@ Status SessionHost::on_hello(const std::shared_ptr<Connection>& connection, cons
         case Role::kDisplay:
             break;
     }
-    return fail("a {} takes no connection from a display", name(options_.role));
+    return fail("a {} takes no connection from a display", name_of(options_.role));
 }
 
 void SessionHost::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {

@@ -15,8 +15,6 @@ namespace swath {
 namespace asio = boost::asio;
 namespace {
 
-std::string_view name(ViewFormat format) { return format == ViewFormat::kPng ? "png" : "jpeg"; }
-
 SharedBytes to_bytes(std::string_view text) {
     auto bytes = std::make_shared<Buffer>();
     bytes->append(text.data(), text.size());
@@ -29,7 +27,7 @@ SharedBytes picture_message(const EncodePicture& task) {
         *task.picture, task.key.format == ViewFormat::kPng ? PictureFormat::kPng : PictureFormat::kJpeg);
     const std::string head = fmt::format(
         R"({{"frame":{},"stream":{},"format":"{}","width":{},"height":{},"plan":)", task.key.frame,
-        task.key.stream, name(task.key.format), task.picture->width, task.picture->height);
+        task.key.stream, name_of(task.key.format), task.picture->width, task.picture->height);
     const std::span<const std::uint8_t> plan =
         task.plan ? task.plan->bytes() : std::span<const std::uint8_t>();
     const std::string_view plan_text =
@@ -75,11 +73,9 @@ Result<ViewerText> parse_text(std::string_view text) {
     if (!frame) return fail("shown: frame: not a frame's number");
     const auto stream = number_below("stream", kMaxStreams);
     if (!stream) return fail("shown: stream: not a number below {}", kMaxStreams);
-    const std::string format = string_at("format");
-    if (format != name(ViewFormat::kJpeg) && format != name(ViewFormat::kPng))
-        return fail("shown: format: neither jpeg nor png");
-    return PictureKey{0, *frame, static_cast<std::uint32_t>(*stream),
-                      format == name(ViewFormat::kPng) ? ViewFormat::kPng : ViewFormat::kJpeg};
+    const auto format = parse<ViewFormat>(string_at("format"));
+    if (!format) return fail("shown: format: neither jpeg nor png");
+    return PictureKey{0, *frame, static_cast<std::uint32_t>(*stream), *format};
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ class ViewerHost {
     std::unique_ptr<WebServer> web_;        // thread_'s
     std::thread thread_;
     // PNG takes long, and JPEG need not wait for it.
-    std::unique_ptr<WorkerThread> encoders_[kViewFormats];
+    std::unique_ptr<WorkerThread> encoders_[kAll<ViewFormat>.size()];
 };
 
 }  // namespace swath

@@ -25,7 +25,9 @@ using SharedBytes = std::shared_ptr<const Buffer>;
 
 // Formats of pictures, the better one last.
 enum class ViewFormat : std::uint32_t { kJpeg, kPng };
-inline constexpr std::size_t kViewFormats = 2;
+template <>
+inline constexpr auto kNames<ViewFormat> = names_of<ViewFormat>("format", {{ViewFormat::kJpeg, "jpeg"},
+                                                                           {ViewFormat::kPng, "png"}});
 
 // A picture in a format. Within a stream the newer or better one is larger.
 struct PictureKey {
@@ -119,8 +121,8 @@ class Viewers {
     };
     struct Viewer {
         Writing writing = Writing::kNothing;
-        bool audience = true;                                // it must still be told who looks
-        std::array<SharedBytes, kNoteTopicCount + 1> notes;  // by topic; null: nothing new
+        bool audience = true;                                       // it must still be told who looks
+        std::array<SharedBytes, kAll<NoteTopic>.size() + 1> notes;  // by topic; null: nothing new
         std::deque<SharedBytes> frame_notes;
         std::array<ViewerStream, kMaxStreams> streams;
         bool picture_last = false;      // pictures and `frame` notes take turns
@@ -130,8 +132,8 @@ class Viewers {
         std::optional<FrameNumber> frame;  // of the newest picture
         std::shared_ptr<const Picture> picture;
         SharedBytes plan;
-        std::array<SharedBytes, kViewFormats> encoded;
-        std::array<std::optional<PictureKey>, kViewFormats> encoding;  // under way
+        std::array<SharedBytes, kAll<ViewFormat>.size()> encoded;
+        std::array<std::optional<PictureKey>, kAll<ViewFormat>.size()> encoding;  // under way
     };
 
     Actions settle(Nanoseconds now);
@@ -149,7 +151,7 @@ class Viewers {
     std::uint64_t run_ = 0;
     bool session_ = false;
     bool live_ = false;
-    std::array<SharedBytes, kNoteTopicCount + 1> sticky_;  // the newest by topic, for newcomers
+    std::array<SharedBytes, kAll<NoteTopic>.size() + 1> sticky_;  // the newest by topic, for newcomers
     std::map<FrameNumber, SharedBytes> plans_;
     std::set<FrameNumber> announced_;  // those that are not complete
     std::array<Stream, kMaxStreams> streams_;

@@ -221,8 +221,9 @@ void ServerSession::connect(const std::string& text, Role role, ServerId id) {
 }
 
 Status ServerSession::on_peer_hello(Role role, ServerId id, const Hello& hello) const {
-    if (hello.role != role) return fail("a {} answers where a {} is expected", name(hello.role), name(role));
-    if (hello.session != setup_.session) return fail("this {} is in another session", name(role));
+    if (hello.role != role)
+        return fail("a {} answers where a {} is expected", name_of(hello.role), name_of(role));
+    if (hello.session != setup_.session) return fail("this {} is in another session", name_of(role));
     if (role == Role::kServer && hello.server != id)
         return fail("this is server {}, not {}", index(hello.server), index(id));
     return {};

@@ -67,7 +67,7 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
             ->required()
             ->expected(1);
     app.add_option("--algorithm", algorithms_,
-                   "how to divide a frame, several with commas between: " + algorithm_names())
+                   "how to divide a frame, several with commas between: " + name_list<Algorithm>())
         ->delimiter(',')
         ->allow_extra_args(false)
         ->capture_default_str();
@@ -120,7 +120,7 @@ Result<ScenarioOptions> ScenarioFlags::read() const {
         options.models.push_back(std::move(model));
     }
     for (const std::string& text : algorithms_) {
-        const auto algorithm = parse_algorithm(text);
+        const auto algorithm = parse<Algorithm>(text);
         if (!algorithm) return fail_in("--algorithm", algorithm.error());
         add_once(options.algorithms, *algorithm);
     }
@@ -133,7 +133,7 @@ Result<ScenarioOptions> ScenarioFlags::read() const {
         SWATH_TRY(const auto size, parse_size("--size", text));
         add_once(options.sizes, size);
     }
-    const auto by = parse_objects_by(objects_by_);
+    const auto by = parse<ObjectsBy>(objects_by_);
     if (!by) return fail_in("--objects-by", by.error());
     const bool sah = *by == ObjectsBy::kSah;
     if (sah && !depths_.empty())

@@ -192,9 +192,8 @@ const Results& StudyContext::table1() {
     if (table1_.experiments.empty()) {
         std::vector<Experiment> all;
         for (const StudySubject& subject : subjects_)
-            std::ranges::move(
-                experiments(subject, subject.model, all_algorithms(), kPaperWidth, kPaperHeight),
-                std::back_inserter(all));
+            std::ranges::move(experiments(subject, subject.model, kAll<Algorithm>, kPaperWidth, kPaperHeight),
+                              std::back_inserter(all));
         table1_ = run(std::move(all), "Table 1");
     }
     return table1_;

@@ -114,7 +114,7 @@ void bench_partition(Figures& figures, std::size_t count, std::size_t servers, c
     }
     const std::string size = std::to_string(count) + "x" + std::to_string(servers);
     std::vector<double> slowest_ms;
-    for (const Algorithm algorithm : all_algorithms()) {
+    for (const Algorithm algorithm : kAll<Algorithm>) {
         const auto partitioner = make_partitioner(algorithm, objects);
         partitioner->partition({0, view, projected, servers});
         std::vector<double> ms;

@@ -170,7 +170,7 @@ TEST_P(EveryPartitioner, RefusesMoreServersThanItsLimit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Algorithms, EveryPartitioner,
-                         testing::ValuesIn(all_algorithms().begin(), all_algorithms().end()),
+                         testing::ValuesIn(kAll<Algorithm>.begin(), kAll<Algorithm>.end()),
                          [](const auto& instance) {
                              std::string name(name_of(instance.param));
                              std::erase(name, '-');
@@ -178,15 +178,15 @@ INSTANTIATE_TEST_SUITE_P(Algorithms, EveryPartitioner,
                          });
 
 TEST(AlgorithmName, IsReadBack) {
-    for (const Algorithm algorithm : all_algorithms())
-        EXPECT_EQ(parse_algorithm(name_of(algorithm)), algorithm);
-    EXPECT_EQ(all_algorithms().size(), 4u);
+    for (const Algorithm algorithm : kAll<Algorithm>)
+        EXPECT_EQ(parse<Algorithm>(name_of(algorithm)), algorithm);
+    EXPECT_EQ(kAll<Algorithm>.size(), 4u);
     EXPECT_EQ(name_of(Algorithm::kKdSplit), "kd-split");
     EXPECT_EQ(name_of(Algorithm::kSortLast), "sort-last");
 }
 
 TEST(AlgorithmName, ThatIsUnknownIsAnErrorThatListsTheKnownOnes) {
-    const Result<Algorithm> parsed = parse_algorithm("sort-middle");
+    const Result<Algorithm> parsed = parse<Algorithm>("sort-middle");
     ASSERT_FALSE(parsed);
     EXPECT_THAT(parsed.error().message, HasSubstr("'sort-middle'"));
     EXPECT_THAT(parsed.error().message, HasSubstr("hybrid, mahd, kd-split, sort-last"));

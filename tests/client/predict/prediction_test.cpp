@@ -91,7 +91,7 @@ struct Quarters {
     std::vector<std::unique_ptr<Partitioner>> partitioners;
     std::vector<Contender> contenders;
     Quarters() {
-        for (const Algorithm algorithm : all_algorithms()) {
+        for (const Algorithm algorithm : kAll<Algorithm>) {
             partitioners.push_back(make_partitioner(algorithm, model));
             contenders.push_back({algorithm, partitioners.back().get()});
         }
@@ -125,7 +125,7 @@ TEST(Compare, PredictsEveryAlgorithmForTheSameView) {
     ASSERT_EQ(found.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) {
         const Prediction& of = found[i].prediction;
-        EXPECT_EQ(found[i].algorithm, all_algorithms()[i]);
+        EXPECT_EQ(found[i].algorithm, kAll<Algorithm>[i]);
         if (grouping_of(found[i].algorithm) == Grouping::kExactlyOnce) {
             EXPECT_EQ(of.overlap, 1);
             EXPECT_GT(of.swap_pixels, 0);

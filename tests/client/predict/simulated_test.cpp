@@ -102,7 +102,7 @@ void expect_agree(const Run& run, const Hardware& hardware, double tolerance) {
                 const double measured = ms_of(machines[m], phase);
                 EXPECT_NEAR(predicted.machines[m][phase], measured, tolerance * measured + 1e-4)
                     << name_of(run.algorithm) << ", frame " << f << ", " << machines[m].machine << " "
-                    << name(phase);
+                    << name_of(phase);
             }
         }
     }
@@ -155,8 +155,7 @@ TEST_P(Algorithms, ArePredictedFromWhatTheHybridTaught) {
     expect_agree(simulated(known(), GetParam(), 4, 3), *rates.hardware(GetParam()), 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Algorithms,
-                         testing::ValuesIn(all_algorithms().begin(), all_algorithms().end()));
+INSTANTIATE_TEST_SUITE_P(All, Algorithms, testing::ValuesIn(kAll<Algorithm>.begin(), kAll<Algorithm>.end()));
 
 }  // namespace
 }  // namespace swath

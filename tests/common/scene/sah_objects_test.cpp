@@ -128,9 +128,9 @@ TEST(SahObjects, OfATriangleOrOfManyInOnePlaceAreOne) {
 }
 
 TEST(ObjectsBy, HaveNames) {
-    EXPECT_EQ(parse_objects_by("sah"), ObjectsBy::kSah);
-    EXPECT_EQ(parse_objects_by("uniform"), ObjectsBy::kUniform);
-    EXPECT_THAT(parse_objects_by("kd").error().message, testing::HasSubstr("uniform, sah"));
+    EXPECT_EQ(parse<ObjectsBy>("sah"), ObjectsBy::kSah);
+    EXPECT_EQ(parse<ObjectsBy>("uniform"), ObjectsBy::kUniform);
+    EXPECT_THAT(parse<ObjectsBy>("kd").error().message, testing::HasSubstr("uniform, sah"));
     EXPECT_EQ(to_string(Cut{ObjectsBy::kUniform, 4, 0}), "octree depth 4");
     EXPECT_EQ(to_string(Cut{ObjectsBy::kSah, 0, 1500}), "SAH octree, 1500 asked for");
 }

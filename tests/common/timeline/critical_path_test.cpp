@@ -15,7 +15,7 @@ using testing::ElementsAre;
 std::vector<std::string> path(const FrameTimeline& timeline, Nanoseconds clock_error = kClockError) {
     std::vector<std::string> names;
     for (const CriticalSpan& span : critical_path(timeline, clock_error))
-        names.push_back(fmt::format("{} {}", span.machine, name(span.phase)));
+        names.push_back(fmt::format("{} {}", span.machine, name_of(span.phase)));
     return names;
 }
 

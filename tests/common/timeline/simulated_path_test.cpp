@@ -40,7 +40,7 @@ TEST_P(SimulatedCriticalPath, AccountsForEveryMomentOfAFrame) {
         for (std::size_t i = 1; i < path.size(); ++i) {
             EXPECT_GE(path[i].begin, path[i - 1].end);
             EXPECT_LE(path[i].begin - path[i - 1].end, Nanoseconds(100))
-                << frame.frame << ": before " << path[i].machine << " " << name(path[i].phase);
+                << frame.frame << ": before " << path[i].machine << " " << name_of(path[i].phase);
         }
     }
 }

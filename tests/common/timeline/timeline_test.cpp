@@ -11,28 +11,28 @@ namespace {
 
 TEST(Timeline, EveryPhaseAndCounterHasANameOfItsOwn) {
     std::set<std::string_view> names;
-    for (std::size_t i = 0; i < kPhaseCount; ++i) names.insert(name(static_cast<Phase>(i)));
+    for (std::size_t i = 0; i < kPhaseCount; ++i) names.insert(name_of(static_cast<Phase>(i)));
     EXPECT_EQ(names.size(), kPhaseCount);
-    for (std::size_t i = 0; i < kCounterCount; ++i) names.insert(name(static_cast<Counter>(i)));
+    for (std::size_t i = 0; i < kCounterCount; ++i) names.insert(name_of(static_cast<Counter>(i)));
     EXPECT_EQ(names.size(), kPhaseCount + kCounterCount);
     EXPECT_FALSE(names.contains(""));
 }
 
 TEST(Timeline, NamesStandAtTheirEnumerators) {
-    EXPECT_EQ(name(Phase::kPartition), "partition");
-    EXPECT_EQ(name(Phase::kPixelRead), "pixel read");
-    EXPECT_EQ(name(Phase::kFinalRead), "final read");
-    EXPECT_EQ(name(Phase::kWait), "wait");
-    EXPECT_EQ(name(Counter::kTriangles), "triangles");
-    EXPECT_EQ(name(Counter::kTileBytes), "tile_bytes");
-    EXPECT_EQ(name(Counter::kReceivedPixels), "received_pixels");
-    EXPECT_EQ(name(Counter::kLeaves), "leaves");
-    EXPECT_EQ(name(Counter::kSplitLevel), "split_level");
+    EXPECT_EQ(name_of(Phase::kPartition), "partition");
+    EXPECT_EQ(name_of(Phase::kPixelRead), "pixel read");
+    EXPECT_EQ(name_of(Phase::kFinalRead), "final read");
+    EXPECT_EQ(name_of(Phase::kWait), "wait");
+    EXPECT_EQ(name_of(Counter::kTriangles), "triangles");
+    EXPECT_EQ(name_of(Counter::kTileBytes), "tile_bytes");
+    EXPECT_EQ(name_of(Counter::kReceivedPixels), "received_pixels");
+    EXPECT_EQ(name_of(Counter::kLeaves), "leaves");
+    EXPECT_EQ(name_of(Counter::kSplitLevel), "split_level");
 }
 
 TEST(Timeline, NamingAPhaseOutOfRangeIsABug) {
-    EXPECT_THROW(name(static_cast<Phase>(kPhaseCount)), CheckFailed);
-    EXPECT_THROW(name(static_cast<Counter>(kCounterCount)), CheckFailed);
+    EXPECT_THROW(name_of(static_cast<Phase>(kPhaseCount)), CheckFailed);
+    EXPECT_THROW(name_of(static_cast<Counter>(kCounterCount)), CheckFailed);
 }
 
 TEST(Timeline, OnlyServersAreCalledServers) {

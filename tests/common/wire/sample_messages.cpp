@@ -15,6 +15,10 @@ class Maker {
     std::uint64_t u64() { return std::uint64_t{u32()} << 32 | u32(); }
     std::uint32_t below(std::uint32_t limit) { return u32() % limit; }
     // Times up to the largest that travels, small ones too.
+    template <NamedEnum E>
+    E any() {
+        return kAll<E>[below(static_cast<std::uint32_t>(kAll<E>.size()))];
+    }
     Nanoseconds time() { return Nanoseconds(static_cast<std::int64_t>(u64() >> (3 + below(61)))); }
     ServerId server() { return server_id(below(kMaxServers)); }
     float number() { return static_cast<float>(static_cast<std::int32_t>(u32())) / 65536.0f; }
@@ -92,7 +96,7 @@ class Maker {
         return m;
     }
     DisplaySetup display_setup() {
-        const auto format = static_cast<PictureFormat>(below(3));
+        const auto format = any<PictureFormat>();
         return {u64(), format, 1 + below(kMaxFramesInFlight), below(2) == 0};
     }
     Drawing drawing() {
@@ -101,8 +105,8 @@ class Maker {
         Drawing m;
         m.cut = below(2) == 0 ? uniform : sah;
         m.renderers.resize(1 + below(3));
-        for (RendererKind& kind : m.renderers) kind = kRendererKinds[below(kRendererKindCount)];
-        m.cull = static_cast<CullAlgorithm>(below(kCullAlgorithmCount));
+        for (RendererKind& kind : m.renderers) kind = any<RendererKind>();
+        m.cull = any<CullAlgorithm>();
         m.flags = {below(2) == 0, below(2) == 0};
         return m;
     }
@@ -112,7 +116,7 @@ class Maker {
             m.peers.push_back({server_id(id), text()});
         return m;
     }
-    Note note() { return {static_cast<NoteTopic>(1 + below(kNoteTopicCount)), u64()}; }
+    Note note() { return {any<NoteTopic>(), u64()}; }
     template <class M>
     M report() {
         M m;

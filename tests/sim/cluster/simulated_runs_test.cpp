@@ -121,7 +121,7 @@ std::string case_name(const testing::TestParamInfo<std::tuple<Algorithm, std::si
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SimulatedRun,
-                         testing::Combine(testing::ValuesIn(all_algorithms().begin(), all_algorithms().end()),
+                         testing::Combine(testing::ValuesIn(kAll<Algorithm>.begin(), kAll<Algorithm>.end()),
                                           testing::Values(1u, 2u, 3u, 7u, 16u, 64u)),
                          case_name);
 
@@ -204,7 +204,7 @@ TEST_P(EveryAlgorithm, TakesAtLeastTheIdealDrawingTime) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryAlgorithm,
-                         testing::ValuesIn(all_algorithms().begin(), all_algorithms().end()),
+                         testing::ValuesIn(kAll<Algorithm>.begin(), kAll<Algorithm>.end()),
                          [](const auto& of) {
                              std::string name(name_of(of.param));
                              std::erase(name, '-');

@@ -15,7 +15,7 @@ namespace {
 class Experiments : public testing::Test {
   protected:
     Experiments() {
-        for (const Algorithm algorithm : all_algorithms())
+        for (const Algorithm algorithm : kAll<Algorithm>)
             for (const std::size_t servers : {1u, 3u, 8u}) {
                 Experiment e;
                 e.model = &model_;

@@ -86,7 +86,7 @@ TEST(ScenarioFlags, NameTheServersThatCannotBe) {
 
 TEST(ScenarioFlags, ListTheAlgorithmsWhereOneIsUnknown) {
     EXPECT_THAT(error_of("--model m --algorithm hybrid,magic"),
-                AllOf(HasSubstr("--algorithm"), HasSubstr("magic"), HasSubstr(algorithm_names())));
+                AllOf(HasSubstr("--algorithm"), HasSubstr("magic"), HasSubstr(name_list<Algorithm>())));
 }
 
 TEST(ScenarioFlags, RefuseTwoModelsOfOneName) {
