@@ -36,7 +36,9 @@ template <class E>
 inline constexpr std::nullptr_t kNames = nullptr;
 
 template <class E>
-concept NamedEnum = requires { kNames<E>.rows; };
+concept NamedEnum = requires {
+    kNames<E>.rows;
+};
 
 // All values, in the order of the table.
 template <NamedEnum E>

@@ -27,6 +27,10 @@ namespace swath {
 inline constexpr std::uint32_t kMaxFramesInFlight = 8;
 // At up to five bytes each they leave room in a message's head for the rest.
 inline constexpr std::size_t kMaxVisibleCounts = std::size_t{1} << 19;
+inline constexpr std::size_t kMaxTextBytes = 4096;
+inline constexpr std::size_t kMaxSpans = 4096;  // of a report
+// 73 years. Sums and differences of two times fit in 64 bits.
+inline constexpr std::int64_t kMaxTimeNs = std::int64_t{1} << 61;
 
 // A probe wants to know that somebody answers, no more.
 enum class Role : std::uint32_t { kClient = 1, kServer = 2, kDisplay = 3, kProbe = 4 };

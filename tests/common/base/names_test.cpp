@@ -12,8 +12,9 @@ enum class Colour { kRed = 1, kGreen, kBlue };
 }  // namespace
 
 template <>
-inline constexpr auto kNames<Colour> = names_of<Colour>(
-    "colour", {{Colour::kRed, "red"}, {Colour::kGreen, "light green"}, {Colour::kBlue, "blue"}});
+inline constexpr auto kNames<Colour> = names_of<Colour>("colour", {{Colour::kRed, "red"},
+                                                                   {Colour::kGreen, "light green"},
+                                                                   {Colour::kBlue, "blue"}});
 
 namespace {
 
