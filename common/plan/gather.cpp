@@ -38,15 +38,16 @@ std::vector<ServerId> Gather::ready(FrameNumber number) {
 }
 
 Result<bool> Gather::arrive(FrameNumber number, ServerId from) {
-    const auto found = frames_.find(number);
+    auto found = frames_.find(number);
     if (found == frames_.end()) {
         if (number < next_frame_) return fail("pixels for frame {}, which is over", number);
         const auto early =
             std::count_if(frames_.begin(), frames_.end(), [](const auto& f) { return !f.second.open; });
         if (static_cast<std::size_t>(early) >= frames_in_flight_)
             return fail("pixels for frame {}, more than {} frames ahead", number, frames_in_flight_);
+        found = frames_.emplace(number, Frame{}).first;
     }
-    Frame& frame = frames_[number];
+    Frame& frame = found->second;
     if (frame.open && frame.awaited.erase(from) == 0)
         return fail("pixels for frame {}, which awaits none", number);
     if (frame.ready) return true;

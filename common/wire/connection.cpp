@@ -172,6 +172,7 @@ Status Connection::dispatch(Message&& message) {
         const auto* hello = std::get_if<Hello>(&message);
         if (hello == nullptr) return fail("sent {} before Hello", name(message));
         introduced_ = true;
+        peer_hello_ = *hello;
         peer_limits_ = {hello->max_head_bytes, hello->max_body_bytes};
         return handlers_.on_hello(*hello);
     }

@@ -60,6 +60,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     // At once, without on_closed.
     void close();
 
+    // What the other end has said of itself: what on_hello was called with.
+    const Hello& peer_hello() const { return peer_hello_; }
     // "host:port" of the other end.
     const std::string& peer() const { return peer_; }
     // What to add to a time on the peer's clock to get ours, from the quickest Pong so far (error: half of
@@ -94,6 +96,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
     bool open_ = true;
     bool introduced_ = false;
+    Hello peer_hello_;
     WireLimits peer_limits_ = kHelloLimits;
     bool closing_ = false;      // the queue is being flushed; what comes is thrown away
     bool cannot_send_ = false;  // the peer has closed its end; only reading goes on

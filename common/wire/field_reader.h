@@ -109,13 +109,13 @@ class FieldReader {
         if (ours.empty()) ours = {};
     }
     void region(Region& ours, const char* name, auto& list) {
-        if (list.size() % 4 != 0)
-            return refuse("{}: {} numbers are no rectangles", place(name), list.size());
+        if (list.size() % 4 != 0) return refuse("{}: {} numbers are no rectangles", place(name), list.size());
         ours.reserve(size_of(list) / 4);
         for (int i = 0; i < list.size(); i += 4) {
             const Rect r{list[i], list[i + 1], list[i + 2], list[i + 3]};
             if (r.empty() || r.x0 < 0 || r.y0 < 0 || r.x1 > kMaxPictureSide || r.y1 > kMaxPictureSide)
-                return refuse("{}: a rectangle that is empty or leaves 0 to {}", place(name), kMaxPictureSide);
+                return refuse("{}: a rectangle that is empty or leaves 0 to {}", place(name),
+                              kMaxPictureSide);
             ours.push_back(r);
         }
     }

@@ -30,7 +30,8 @@ inline Status check_size(std::uint32_t width, std::uint32_t height) {
 
 // The rectangles of a region do not overlap, so it has no more pixels than where it lies. (Whether they
 // overlap is not worth finding out: pixels would be sent twice, no more.)
-inline Status check_inside(const Region& region, const Rect& place, const char* name, const char* place_name) {
+inline Status check_inside(const Region& region, const Rect& place, const char* name,
+                           const char* place_name) {
     for (const Rect& r : region)
         if (!place.contains(r)) return fail("{}: a rectangle outside the {}", name, place_name);
     if (area(region) > place.area())
@@ -49,7 +50,8 @@ bool ascend(const auto& of_servers) {
 }
 
 // A field of `p`: its name, its value and how to set it; and one that is a list or a message.
-#define FIELD(name) #name, p.name(), [&p](const auto& value) { p.set_##name(static_cast<decltype(p.name())>(value)); }
+#define FIELD(name) \
+#name, p.name(), [&p](const auto& value) { p.set_##name(static_cast<decltype(p.name())>(value)); }
 #define PART(name) #name, *p.mutable_##name()
 
 void fields(auto& io, Of<Hello> auto& m, pb::Hello& p) {

@@ -35,15 +35,13 @@ void DisplaySession::give_up(const Error& error) {
 
 bool DisplaySession::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
     if (connection == client_) return true;
-    for (auto server = servers_.begin(); server != servers_.end(); ++server) {
-        if (server->second != connection) continue;
-        const ServerId id = server->first;
-        servers_.erase(server);
-        if (why) break;  // a Bye: it has left, or heard before us that the client has ended the run
-        spdlog::warn("lost server {} ({}): {}", index(id), connection->peer(), why.error().message);
-        if (!stopped_) tell(Lost{id, why.error().message});
-        break;
-    }
+    const ServerId id = connection->peer_hello().server;
+    const auto server = servers_.find(id);
+    if (server == servers_.end() || server->second != connection) return false;
+    servers_.erase(server);
+    if (why) return false;  // a Bye: it has left, or heard before us that the client has ended the run
+    spdlog::warn("lost server {} ({}): {}", index(id), connection->peer(), why.error().message);
+    if (!stopped_) tell(Lost{id, why.error().message});
     return false;
 }
 
@@ -57,8 +55,8 @@ Status DisplaySession::on_peer(const std::shared_ptr<Connection>& connection, co
 Status DisplaySession::on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) {
     if (stopped_) return {};
     if (from == client_) return from_client(message, std::move(body));
-    for (const auto& [id, server] : servers_)
-        if (server == from) return from_server(id, message, std::move(body));
+    const Hello& sender = from->peer_hello();
+    if (sender.role == Role::kServer) return from_server(sender.server, message, std::move(body));
     return fail("{} is not expected here", name(message));
 }
 
@@ -137,19 +135,24 @@ Status DisplaySession::on_assemble(const AssembleFrame& task) {
 Status DisplaySession::from_server(ServerId from, const Message& message, Buffer&& body) {
     const auto* pixels = std::get_if<TilePixels>(&message);
     if (pixels == nullptr) return fail("{} is not expected from a server", name(message));
-    const auto actions = assembly_->on_tile(pixels->frame, from);
-    if (!actions) return tl::unexpected(actions.error());
-    pieces_.emplace(std::pair(pixels->frame, from), Piece{pixels->sizes, std::move(body)});
-    return run(*actions);
+    SWATH_TRY(const auto actions, assembly_->on_tile(pixels->frame, from));
+    Piece piece{pixels->sizes, std::move(body)};
+    if (!actions.empty()) return run(actions, &piece);
+    early_.keep(pixels->frame, from, std::move(piece));
+    return {};
 }
 
-Status DisplaySession::run(const Assembly::Actions& actions) {
+// `arrived` is the piece that the actions come from, if they do; the others have been kept.
+Status DisplaySession::run(const Assembly::Actions& actions, const Piece* arrived) {
     for (const AssemblyAction& action : actions) {
         switch (action.kind) {
-            case AssemblyAction::Kind::kMerge:
-                if (const auto status = merge(frames_.at(action.frame), action.server); !status)
-                    return status;
+            case AssemblyAction::Kind::kMerge: {
+                OpenFrame& frame = frames_.at(action.frame);
+                SWATH_TRY_VOID(arrived != nullptr
+                                   ? merge(frame, action.server, *arrived)
+                                   : merge(frame, action.server, early_.take(action.frame, action.server)));
                 break;
+            }
             case AssemblyAction::Kind::kComplete:
                 complete(action.frame);
                 break;
@@ -158,16 +161,13 @@ Status DisplaySession::run(const Assembly::Actions& actions) {
     return {};
 }
 
-Status DisplaySession::merge(OpenFrame& frame, ServerId from) {
+Status DisplaySession::merge(OpenFrame& frame, ServerId from, const Piece& tile) {
     PhaseTimer timer(clock_, frame.report.spans);
-    const auto tile = pieces_.extract({frame.task.frame, from});
-    CHECK(tile.empty() == false);
     const Region* region = nullptr;
     for (const Exchange& e : frame.task.tiles)
         if (e.server == from) region = &e.region;
     CHECK((region != nullptr) == true);
-    const auto status =
-        assemble_tile(tile.mapped().body.bytes(), tile.mapped().sizes, *region, *frame.picture);
+    const auto status = assemble_tile(tile.body.bytes(), tile.sizes, *region, *frame.picture);
     if (!status) return fail("garbled tile from server {}: {}", index(from), status.error().message);
     timer.end(Phase::kAssemble);
     return {};

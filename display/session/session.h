@@ -47,8 +47,8 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     void pass_wish();
     Status on_assemble(const AssembleFrame& task);
     Status from_server(ServerId from, const Message& message, Buffer&& body);
-    Status run(const Assembly::Actions& actions);
-    Status merge(OpenFrame& frame, ServerId from);
+    Status run(const Assembly::Actions& actions, const Piece* arrived = nullptr);
+    Status merge(OpenFrame& frame, ServerId from, const Piece& tile);
     void complete(FrameNumber number);
     void tell(const Message& message, Buffer body = {});
     void give_up(const Error& error);
@@ -66,7 +66,7 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     std::map<ServerId, std::shared_ptr<Connection>> servers_;
     std::unique_ptr<Assembly> assembly_;
     std::map<FrameNumber, OpenFrame> frames_;
-    Pieces pieces_;
+    Pieces early_;
     PicturePool pool_;
     std::unique_ptr<WorkerThread> encoder_;
 };

@@ -53,30 +53,30 @@ void ServerSession::tell_client(const Message& message) {
 
 bool ServerSession::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
     if (connection == client_) return true;
-    if (connection == display_) {
-        display_.reset();
-        if (!why)
-            give_up({fmt::format("lost the display at {}: {}", connection->peer(), why.error().message)});
-    }
-    for (auto peer = peers_.begin(); peer != peers_.end(); ++peer) {
-        if (peer->second != connection) continue;
-        const ServerId id = peer->first;
-        peers_.erase(peer);
-        // A Bye comes when a peer has left, or when the client has ended the run and it heard of that before
-        // us.
-        if (why || !draw_thread_) break;
-        spdlog::warn("lost server {} ({}): {}", index(id), connection->peer(), why.error().message);
-        tell_client(Lost{id, why.error().message});
-        break;
-    }
+    on_server_closed(connection->peer_hello().server, *connection, why);
     return false;
+}
+
+void ServerSession::on_display_closed(const Connection& connection, const Status& why) {
+    display_.reset();
+    if (!why) give_up({fmt::format("lost the display at {}: {}", connection.peer(), why.error().message)});
+}
+
+void ServerSession::on_server_closed(ServerId id, const Connection& connection, const Status& why) {
+    const auto peer = peers_.find(id);
+    if (peer == peers_.end() || peer->second.get() != &connection) return;
+    peers_.erase(peer);
+    // A Bye comes when a peer has left, or when the client has ended the run and it heard of that before us.
+    if (why || !draw_thread_) return;
+    spdlog::warn("lost server {} ({}): {}", index(id), connection.peer(), why.error().message);
+    tell_client(Lost{id, why.error().message});
 }
 
 Status ServerSession::on_message(const std::shared_ptr<Connection>& from, Message&& message, Buffer&& body) {
     if (!draw_thread_) return {};
     if (from == client_) return from_client(std::move(message), std::move(body));
-    for (const auto& [id, peer] : peers_)
-        if (peer == from) return from_peer(id, std::move(message), std::move(body));
+    const Hello& sender = from->peer_hello();
+    if (sender.role == Role::kServer) return from_server(sender.server, std::move(message), std::move(body));
     return fail("{} is not expected from a display", name(message));
 }
 
@@ -215,7 +215,13 @@ void ServerSession::connect(const std::string& text, Role role, ServerId id) {
                  [self, weak](Message&& message, Buffer&& body) {
                      return self->on_message(weak.lock(), std::move(message), std::move(body));
                  },
-                 [self, weak](const Status& why) { self->on_closed(weak.lock(), why); },
+                 [self, role, id, weak](const Status& why) {
+                     const auto closed = weak.lock();
+                     if (role == Role::kDisplay)
+                         self->on_display_closed(*closed, why);
+                     else
+                         self->on_server_closed(id, *closed, why);
+                 },
                  [self] { self->on_heard(); }});
         });
 }
@@ -272,16 +278,18 @@ Status ServerSession::on_render_frame(RenderFrame&& task) {
     return run(*actions);
 }
 
-Status ServerSession::from_peer(ServerId from, Message&& message, Buffer&& body) {
+Status ServerSession::from_server(ServerId from, Message&& message, Buffer&& body) {
     const auto* pixels = std::get_if<SwathPixels>(&message);
     if (pixels == nullptr) return fail("{} is not expected from a server", name(message));
-    auto actions = swap_->on_swath(pixels->frame, from);
-    if (!actions) return tl::unexpected(actions.error());
-    pieces_.emplace(std::pair(pixels->frame, from), Piece{pixels->sizes, std::move(body)});
-    return run(*actions);
+    SWATH_TRY(const auto actions, swap_->on_swath(pixels->frame, from));
+    Piece piece{pixels->sizes, std::move(body)};
+    if (!actions.empty()) return run(actions, &piece);
+    early_.keep(pixels->frame, from, std::move(piece));
+    return {};
 }
 
-Status ServerSession::run(const FrameSwap::Actions& actions) {
+// `arrived` is the piece that the actions come from, if they do; the others have been kept.
+Status ServerSession::run(const FrameSwap::Actions& actions, const Piece* arrived) {
     for (const SwapAction& action : actions) {
         OpenFrame& frame = frames_.at(action.frame);
         Status status;
@@ -293,7 +301,9 @@ Status ServerSession::run(const FrameSwap::Actions& actions) {
                 status = send_swath(frame, action.peer);
                 break;
             case SwapAction::Kind::kComposite:
-                status = composite(frame, action.peer);
+                status = arrived != nullptr
+                             ? composite(frame, action.peer, *arrived)
+                             : composite(frame, action.peer, early_.take(action.frame, action.peer));
                 break;
             case SwapAction::Kind::kSendTile:
                 status = send_tile(frame);
@@ -363,15 +373,12 @@ Status ServerSession::send_swath(OpenFrame& frame, ServerId to) {
     return {};
 }
 
-Status ServerSession::composite(OpenFrame& frame, ServerId from) {
+Status ServerSession::composite(OpenFrame& frame, ServerId from, const Piece& piece) {
     PhaseTimer timer(clock_, frame.report.spans);
-    const auto piece = pieces_.extract({frame.task.frame, from});
-    CHECK(piece.empty() == false);
-    const auto status =
-        composite_swath(piece.mapped().body.bytes(), piece.mapped().sizes,
-                        region_of(frame.task.incoming, from), static_cast<ObjectId>(objects_), frame.pixels);
+    const auto status = composite_swath(piece.body.bytes(), piece.sizes, region_of(frame.task.incoming, from),
+                                        static_cast<ObjectId>(objects_), frame.pixels);
     if (!status) return fail("garbled pixels from server {}: {}", index(from), status.error().message);
-    frame.report[Counter::kReceivedPixels] += piece.mapped().sizes.pixels;
+    frame.report[Counter::kReceivedPixels] += piece.sizes.pixels;
     timer.end(Phase::kPixelWrite);
     return {};
 }

@@ -39,6 +39,8 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
         ServerReport report;
     };
 
+    void on_display_closed(const Connection& connection, const Status& why);
+    void on_server_closed(ServerId id, const Connection& connection, const Status& why);
     Status from_client(Message&& message, Buffer&& body);
     Status on_setup(const ServerSetup& setup);
     void need_model_part();
@@ -54,12 +56,12 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     void on_heard();
     Status on_render_frame(RenderFrame&& task);
     Status check(const RenderFrame& task) const;
-    Status from_peer(ServerId from, Message&& message, Buffer&& body);
-    Status run(const FrameSwap::Actions& actions);
+    Status from_server(ServerId from, Message&& message, Buffer&& body);
+    Status run(const FrameSwap::Actions& actions, const Piece* arrived = nullptr);
     void draw(OpenFrame& frame);
     Status on_drawn(FrameNumber number, Drawn& drawn);
     Status send_swath(OpenFrame& frame, ServerId to);
-    Status composite(OpenFrame& frame, ServerId from);
+    Status composite(OpenFrame& frame, ServerId from, const Piece& piece);
     Status send_tile(OpenFrame& frame);
     Status finish(FrameNumber number);
     void tell_client(const Message& message);
@@ -89,7 +91,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     std::shared_ptr<Connection> display_;
     std::unique_ptr<FrameSwap> swap_;
     std::map<FrameNumber, OpenFrame> frames_;
-    Pieces pieces_;
+    Pieces early_;
     std::vector<PixelFrame> pool_;
 };
 

@@ -197,6 +197,14 @@ TEST_F(DisplayTest, TurnsAwayServersThatItDoesNotExpect) {
     EXPECT_FALSE(one->closed.has_value());
 }
 
+TEST_F(DisplayTest, TakesNoTilesFromAProbe) {
+    const auto one = ready_client(1);
+    const auto probe = come(hello_of(Role::kProbe));
+    probe->send(TilePixels{});
+    EXPECT_EQ(probe->ending(), "TilePixels is not expected here");
+    EXPECT_FALSE(one->closed.has_value());
+}
+
 TEST_F(DisplayTest, TakesServersThatJoinLaterAndForgetsThoseThatLeave) {
     const auto one = ready_client(1, PictureFormat::kPng);
     servers_.push_back(come(hello_of(Role::kServer, kSession, 1)));

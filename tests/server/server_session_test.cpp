@@ -281,6 +281,14 @@ TEST_F(ServerTest, AnswersAProbe) {
     one->expect<ServerReport>();
 }
 
+TEST_F(ServerTest, TakesNoSwathsFromAProbe) {
+    const auto one = connected_client();
+    const auto probe = come(hello_of(Role::kProbe));
+    probe->send(SwathPixels{});
+    EXPECT_THAT(probe->ending(), HasSubstr("SwathPixels is not expected"));
+    EXPECT_FALSE(one->closed.has_value());
+}
+
 TEST_F(ServerTest, TellsTheClientThatTheDisplayIsLost) {
     const auto one = connected_client();
     display_->connection->fail_with({"out of paper"});
