@@ -133,11 +133,10 @@ Status save_timeline(const std::string& file, const std::vector<FrameTimeline>& 
 Status run_client(const ClientOptions& options, StopSignals& signals) {
     const SteadyClock clock;
     const Nanoseconds begin = clock.now();
-    auto mesh = load_model(options.model);
-    if (!mesh) return tl::unexpected(mesh.error());
-    Buffer blob = options.single ? Buffer() : write_blob(*mesh);
+    SWATH_TRY(auto mesh, load_model(options.model));
+    Buffer blob = options.single ? Buffer() : write_blob(mesh);
     const auto shared_scene =
-        std::make_shared<const ObjectSet>(build_objects(std::move(*mesh), options.granularity));
+        std::make_shared<const ObjectSet>(build_objects(std::move(mesh), options.granularity));
     const ObjectSet& scene = *shared_scene;
     spdlog::info("{}: {} triangles in {} objects ({}), {:.2f} s", options.model, scene.mesh.triangle_count(),
                  scene.objects.size(), to_string(scene.cut),
@@ -146,12 +145,11 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
     PathOptions path{options.frames, options.seed,
                      static_cast<float>(options.width) / static_cast<float>(options.height),
                      static_cast<float>(options.zoom)};
-    auto cameras = make_path(options.path, scene.swept_bounds(), path);
-    if (!cameras) return tl::unexpected(cameras.error());
+    SWATH_TRY(auto cameras, make_path(options.path, scene.swept_bounds(), path));
 
     const PictureWriter writer(options.out, options.format);
     std::optional<Progress> progress;  // a live run has no end to come closer to
-    if (!options.view) progress.emplace(cameras->size(), "frames", options.program.quiet, clock);
+    if (!options.view) progress.emplace(cameras.size(), "frames", options.program.quiet, clock);
     const auto on_picture = [&](FrameNumber frame, const Buffer& encoded) {
         if (progress) progress->step();
         return writer.write(frame, encoded);
@@ -164,7 +162,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         job.renderer = {options.draw.renderers.front(), options.draw.flags, drawing_threads(options.threads),
                         builds_on_cuda(options)};
         job.cull = options.draw.cull;
-        job.cameras = std::move(*cameras);
+        job.cameras = std::move(cameras);
         job.pose = pose_of(options, scene);
         job.to_light = to_light(options);
         job.width = options.width;
@@ -179,9 +177,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
             job.servers = *options.servers;
             job.display = *options.display;
         } else {
-            auto started = start_local(options);
-            if (!started) return tl::unexpected(started.error());
-            local = std::move(*started);
+            SWATH_TRY(local, start_local(options));
             job.servers.list = local->servers();
             job.display = local->display();
         }
@@ -195,11 +191,9 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         job.pose = pose_of(options, scene);
         job.to_light = to_light(options);
         if (options.view) {
-            auto live = live_settings(options, scene, cameras->front());
-            if (!live) return tl::unexpected(live.error());
-            job.live = std::move(*live);
+            SWATH_TRY(job.live, live_settings(options, scene, cameras.front()));
         } else {
-            job.cameras = std::move(*cameras);
+            job.cameras = std::move(cameras);
         }
         job.command = [&options](const LiveWish& wish, const std::vector<Address>& servers, const Cut& cut) {
             return command_of(options, wish, servers, cut);
@@ -226,7 +220,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
 
     std::cout << to_text(summarise(*frames));
     if (!options.timeline.empty()) {
-        if (const auto status = save_timeline(options.timeline, *frames); !status) return status;
+        SWATH_TRY_VOID(save_timeline(options.timeline, *frames));
         std::cout << "timeline: " << options.timeline
                   << (options.timeline.ends_with(".json") ? " (open it in ui.perfetto.dev)\n" : "\n");
     }

@@ -109,7 +109,7 @@ Status ClusterRun::on_started(const std::string& page) {
     if (live_) live_->on_servers(machines_->members().size());
     tell_session();
     handlers_.on_ready(page, machines_->members().size());
-    if (const auto status = run(director_.on_start()); !status) return status;
+    SWATH_TRY_VOID(run(director_.on_start()));
     return follow_wish();
 }
 
@@ -162,7 +162,7 @@ Status ClusterRun::on_server(ServerId server, Message&& message) {
     const auto place = std::lower_bound(servers.begin(), servers.end(), server);
     if (place == servers.end() || *place != server)
         return fail("a report for frame {}, in which it takes no part", report->frame);
-    if (const auto status = costs_->on_report(report->frame, server, report->visible); !status) return status;
+    SWATH_TRY_VOID(costs_->on_report(report->frame, server, report->visible));
     return on_report(1 + static_cast<std::size_t>(place - servers.begin()), *report,
                      machines_->clock_offset(server), {});
 }
@@ -188,7 +188,7 @@ Status ClusterRun::run(const Director::Actions& actions) {
                 }
                 break;
             case DirectorAction::Kind::kReconfigure:
-                if (const auto status = change_setup(); !status) return status;
+                SWATH_TRY_VOID(change_setup());
                 break;
             case DirectorAction::Kind::kFinish:
                 end();
@@ -295,9 +295,8 @@ Status ClusterRun::on_report(std::size_t at, const Report& report, Nanoseconds c
         span.end += clock_offset;
     }
     machine.counters = report.counters;
-    auto actions =
-        display ? director_.on_display_report(report.frame) : director_.on_server_report(report.frame);
-    if (!actions) return tl::unexpected(actions.error());
+    SWATH_TRY(auto actions,
+              display ? director_.on_display_report(report.frame) : director_.on_server_report(report.frame));
     if (display) {
         if (const auto status = handlers_.on_picture(report.frame, body); !status) {
             finish(tl::unexpected(status.error()));
@@ -312,7 +311,7 @@ Status ClusterRun::on_report(std::size_t at, const Report& report, Nanoseconds c
         machines_->on_over(servers);
         if (live_ && timelines_.size() > kLiveHistory) timelines_.pop_front();
     }
-    return run(*actions);
+    return run(actions);
 }
 
 // --- a live run
@@ -340,8 +339,7 @@ Status ClusterRun::on_wish(const Wish& wish, const Buffer& body) {
 
 Status ClusterRun::follow_wish() {
     if (!live_) return {};
-    if (live_->wanted_setup())
-        if (const auto status = run(director_.on_reconfigure()); !status) return status;
+    if (live_->wanted_setup()) SWATH_TRY_VOID(run(director_.on_reconfigure()));
     return run(director_.on_wanted(live_->wants_frame()));
 }
 
@@ -411,7 +409,7 @@ Status ClusterRun::end_change(const std::string& refused) {
 Status ClusterRun::go_on() {
     awaiting_servers_ = machines_->members().empty();
     if (awaiting_servers_) return {};
-    if (const auto status = run(director_.on_reconfigured()); !status) return status;
+    SWATH_TRY_VOID(run(director_.on_reconfigured()));
     return follow_wish();
 }
 

@@ -24,9 +24,7 @@ LiveView::LiveView(Settings settings)
 
 Status LiveView::on_wish(std::string_view json, std::uint32_t by) {
     const LiveWish before = wish_;
-    auto refused = apply_wish(json, by, settings_.limits, wish_);
-    if (!refused) return tl::unexpected(refused.error());
-    refused_ = std::move(*refused);
+    SWATH_TRY(refused_, apply_wish(json, by, settings_.limits, wish_));
     if (const auto status = check_camera(); !status) {
         wish_.camera = before.camera;
         wish_.width = before.width;

@@ -31,9 +31,7 @@ Status take(const Json& value, std::uint64_t low, std::uint64_t high, Number& to
 template <class Parse, class To>
 Status take_name(const Json& value, const Parse& parse, To& to) {
     if (!value.is_string()) return fail("a name is expected");
-    const auto parsed = parse(value.get_ref<const std::string&>());
-    if (!parsed) return tl::unexpected(parsed.error());
-    to = *parsed;
+    SWATH_TRY(to, parse(value.get_ref<const std::string&>()));
     return {};
 }
 
@@ -45,8 +43,7 @@ Status take_against(const Json& value, std::optional<Algorithm>& to) {
 
 Status take_servers(const Json& value, std::size_t most, std::optional<std::size_t>& to) {
     std::size_t servers = 0;
-    if (!value.is_null())
-        if (const Status status = take(value, 1, most, servers); !status) return status;
+    if (!value.is_null()) SWATH_TRY_VOID(take(value, 1, most, servers));
     to = value.is_null() ? std::nullopt : std::optional(servers);
     return {};
 }
@@ -69,7 +66,7 @@ Status take_camera(const Json& value, CameraNumbers& to) {
         if (!value[i].is_number()) return fail("{} numbers are expected", numbers.size());
         numbers[i] = static_cast<float>(value[i].get<double>());
     }
-    if (const auto camera = camera_of(numbers); !camera) return tl::unexpected(camera.error());
+    SWATH_TRY_VOID(camera_of(numbers));
     to = numbers;
     return {};
 }

@@ -15,9 +15,8 @@ constexpr auto kUntilAnswered = std::chrono::milliseconds(100);
 constexpr std::uint64_t kMaxFileBytes = 1u << 20;
 
 Result<std::vector<Address>> read_list(const std::string& file) {
-    const auto text = read_file(file, kMaxFileBytes);
-    if (!text) return tl::unexpected(text.error());
-    auto list = parse_server_list({reinterpret_cast<const char*>(text->data()), text->size()});
+    SWATH_TRY(const auto text, read_file(file, kMaxFileBytes));
+    auto list = parse_server_list({reinterpret_cast<const char*>(text.data()), text.size()});
     if (!list) return fail("{}: {}", file, list.error().message);
     return list;
 }

@@ -244,7 +244,7 @@ Status Machines::on_message(ServerId id, Message&& message, Buffer&& body) {
         return send_model_part(servers_.at(id), need->offset);
     if (const auto* ready = std::get_if<Ready>(&message)) return on_ready(id, *ready);
     if (std::holds_alternative<Connected>(message)) {
-        if (const Status status = roster_.on_linked(id); !status) return status;
+        SWATH_TRY_VOID(roster_.on_linked(id));
         if (started_) spdlog::info("{}: takes part", servers_.at(id).who);
         warned_.erase(to_string(servers_.at(id).address));
         return advance();
@@ -290,15 +290,14 @@ Status Machines::on_ready(ServerId id, const Ready& ready) {
 // What it has may be out of date: the drawing changed while it got ready.
 Status Machines::bring_up_to_date(ServerId id) {
     const Server& server = servers_.at(id);
-    if (server.ready && server.drawing != job_.drawing)
-        if (const Status status = ask(id, job_.drawing); !status) return status;
+    if (server.ready && server.drawing != job_.drawing) SWATH_TRY_VOID(ask(id, job_.drawing));
     roster_.on_ready(id, server.ready);
     return advance();
 }
 
 Status Machines::advance() {
     if (over_) return {};
-    if (const Status status = link(); !status) return status;
+    SWATH_TRY_VOID(link());
     if (!started_) {
         const bool complete = std::all_of(servers_.begin(), servers_.end(), [&](const auto& entry) {
             return !entry.second.first || roster_.is_member(entry.first);
@@ -379,8 +378,7 @@ Status Machines::ask(ServerId id, const Drawing& drawing) {
 }
 
 Status Machines::ask_members(const Drawing& drawing) {
-    for (const ServerId id : asked_)
-        if (const Status status = ask(id, drawing); !status) return status;
+    for (const ServerId id : asked_) SWATH_TRY_VOID(ask(id, drawing));
     return {};
 }
 
@@ -419,7 +417,7 @@ Status Machines::end_change(const std::string& refused) {
     for (const auto& [id, server] : servers_)
         if (server.ready && server.drawing != job_.drawing) {
             roster_.on_ready(id, false);
-            if (const Status status = ask(id, job_.drawing); !status) return status;
+            SWATH_TRY_VOID(ask(id, job_.drawing));
         }
     update_members();
     release();

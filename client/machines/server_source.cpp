@@ -36,14 +36,13 @@ Result<ServerSource> parse_server_source(const std::vector<std::string>& texts) 
             continue;
         }
         if (is_name(text)) source.kind = ServerSource::Kind::kName;
-        const auto address = parse_address(is_name(text) ? text.substr(kName.size()) : text);
-        if (!address) return tl::unexpected(address.error());
+        SWATH_TRY(const auto address, parse_address(is_name(text) ? text.substr(kName.size()) : text));
         if (is_name(text))
-            source.name = *address;
-        else if (std::count(source.list.begin(), source.list.end(), *address) > 0)
+            source.name = address;
+        else if (std::count(source.list.begin(), source.list.end(), address) > 0)
             return fail("'{}' is there twice", text);
         else
-            source.list.push_back(*address);
+            source.list.push_back(address);
     }
     if (source.list.size() > kMaxServers)
         return fail("{} addresses, the limit is {}", source.list.size(), kMaxServers);

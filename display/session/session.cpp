@@ -117,8 +117,7 @@ Status DisplaySession::on_assemble(const AssembleFrame& task) {
     if (!assembly_) return fail("AssembleFrame before DisplaySetup");
     std::vector<ServerId> servers;
     for (const Exchange& e : task.tiles) servers.push_back(e.server);
-    const auto actions = assembly_->on_task(task.frame, servers);
-    if (!actions) return tl::unexpected(actions.error());
+    SWATH_TRY(const auto actions, assembly_->on_task(task.frame, servers));
 
     OpenFrame& frame = frames_[task.frame];
     frame.task = task;
@@ -129,7 +128,7 @@ Status DisplaySession::on_assemble(const AssembleFrame& task) {
     fill(*frame.picture, task.width, task.height, task.background);
     timer.end(Phase::kAssemble);
 
-    return run(*actions);
+    return run(actions);
 }
 
 Status DisplaySession::from_server(ServerId from, const Message& message, Buffer&& body) {

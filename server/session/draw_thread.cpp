@@ -39,9 +39,7 @@ Status DrawThread::configure(const Drawing& drawing) {
     }
     drawing_ = drawing;
     if (renderer_) return {};
-    auto renderer = factory_(setup_of(drawing), scene_);
-    if (!renderer) return tl::unexpected(renderer.error());
-    renderer_ = std::move(*renderer);
+    SWATH_TRY(renderer_, factory_(setup_of(drawing), scene_));
     return {};
 }
 

@@ -262,12 +262,11 @@ Status ServerSession::check(const RenderFrame& task) const {
 }
 
 Status ServerSession::on_render_frame(RenderFrame&& task) {
-    if (const auto status = check(task); !status) return status;
+    SWATH_TRY_VOID(check(task));
     SwapTask swap{task.frame, {}, {}, !task.final_region.empty()};
     for (const Exchange& e : task.outgoing) swap.outgoing.push_back(e.server);
     for (const Exchange& e : task.incoming) swap.incoming.push_back(e.server);
-    const auto actions = swap_->on_task(swap);
-    if (!actions) return tl::unexpected(actions.error());
+    SWATH_TRY(const auto actions, swap_->on_task(swap));
 
     OpenFrame& frame = frames_[task.frame];
     frame.report.frame = task.frame;
@@ -275,7 +274,7 @@ Status ServerSession::on_render_frame(RenderFrame&& task) {
     frame.report.spans.push_back({Phase::kWait, now, now, Nanoseconds(0)});  // until drawing begins
     frame.task = std::move(task);
 
-    return run(*actions);
+    return run(actions);
 }
 
 Status ServerSession::from_server(ServerId from, Message&& message, Buffer&& body) {
