@@ -1,5 +1,6 @@
 #include "client/options.h"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
 #include <cmath>

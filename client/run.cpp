@@ -1,7 +1,5 @@
 #include "client/run.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -14,6 +12,7 @@
 #include "client/report/picture_writer.h"
 #include "client/single/single_run.h"
 #include "common/base/file.h"
+#include "common/base/log.h"
 #include "common/program/progress.h"
 #include "common/renderers/make_renderer.h"
 #include "common/scene/model.h"
@@ -29,7 +28,7 @@ std::string raster_threads(std::size_t servers) {
     return std::to_string(std::max<std::size_t>(1, std::thread::hardware_concurrency() / servers) - 1);
 }
 
-// Viewers of a live run may ask for ray casters later.
+// A live run's page may ask for ray casters later on.
 bool builds_on_cuda(const ClientOptions& options) {
     return options.cuda && (options.view || has_raycast(options.draw.renderers)) && can_build_on_cuda();
 }
@@ -78,7 +77,7 @@ Result<LiveView::Settings> live_settings(const ClientOptions& options, const Obj
     return live;
 }
 
-// Quotes a word for a shell.
+// For a shell.
 std::string quoted(const std::string& word) {
     if (!word.empty() &&
         word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -138,9 +137,9 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
     const auto shared_scene =
         std::make_shared<const ObjectSet>(build_objects(std::move(mesh), options.granularity));
     const ObjectSet& scene = *shared_scene;
-    spdlog::info("{}: {} triangles in {} objects ({}), {:.2f} s", options.model, scene.mesh.triangle_count(),
-                 scene.objects.size(), to_string(scene.cut),
-                 std::chrono::duration<double>(clock.now() - begin).count());
+    log_info("{}: {} triangles in {} objects ({}), {:.2f} s", options.model, scene.mesh.triangle_count(),
+             scene.objects.size(), to_string(scene.cut),
+             std::chrono::duration<double>(clock.now() - begin).count());
 
     PathOptions path{options.frames, options.seed,
                      static_cast<float>(options.width) / static_cast<float>(options.height),
@@ -148,7 +147,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
     SWATH_TRY(auto cameras, make_path(options.path, scene.swept_bounds(), path));
 
     const PictureWriter writer(options.out, options.format);
-    std::optional<Progress> progress;  // none for a live run, which has no known end
+    std::optional<Progress> progress;  // a live run has no end to come closer to
     if (!options.view) progress.emplace(cameras.size(), "frames", options.program.quiet, clock);
     const auto on_picture = [&](FrameNumber frame, const Buffer& encoded) {
         if (progress) progress->step();
@@ -210,8 +209,8 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         frames = run_cluster(
             std::move(job), clock, signals,
             [&](const std::string& page, std::size_t servers) {
-                spdlog::info("{} servers and the display are ready after {:.2f} s", servers,
-                             std::chrono::duration<double>(clock.now() - begin).count());
+                log_info("{} servers and the display are ready after {:.2f} s", servers,
+                         std::chrono::duration<double>(clock.now() - begin).count());
                 if (options.view) std::cout << "viewer " << page << std::endl;
             },
             on_picture);

@@ -26,10 +26,20 @@ if(SWATH_SANITIZE)
   endif()
 endif()
 
+# Functions that no program calls are left out, most of them from headers that are compiled once (Asio's, Beast's).
+target_compile_options(swath_options INTERFACE -ffunction-sections)
+target_link_options(swath_options INTERFACE -Wl,--gc-sections)
+
 # swath_library(NAME SOURCES... ): a static library with the options above.
 function(swath_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PUBLIC swath_options)
+endfunction()
+
+# swath_reads_options(SOURCE...): sources of this folder that include CLI11, whose headers are full of code. Optimising that
+# takes as long as reading it, and a program runs it once.
+function(swath_reads_options)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
 endfunction()
 
 # swath_kernel(LIBRARY SOURCE [INSTRUCTION_SET...]): adds SOURCE to LIBRARY, compiled once for every processor
@@ -50,6 +60,7 @@ function(swath_kernel library source)
   foreach(set IN LISTS sets)
     set(objects ${library}_${stem}_${set})
     add_library(${objects} OBJECT ${source})
+    set_target_properties(${objects} PROPERTIES UNITY_BUILD OFF)
     target_link_libraries(${objects} PRIVATE swath_options)
     target_compile_definitions(${objects} PRIVATE SWATH_KERNEL=${set} SWATH_KERNEL_${set})
     target_compile_options(${objects} PRIVATE ${flags_${set}})

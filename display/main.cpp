@@ -1,3 +1,5 @@
+#include <CLI/CLI.hpp>
+#include <boost/asio/io_context.hpp>
 #include <iostream>
 
 #include "common/base/allocator.h"
@@ -36,7 +38,7 @@ int main(int argc, char** argv) {
     add_program_options(app, program, options.timing);
     add_waiting_options(app, program);
     if (const auto code = parse_options(app, argc, argv)) return *code;
-    start_log("swath-display", program);
+    start_log("swath-display", program.least_logged());
 
     const auto address = parse_address(listen);
     if (!address) return usage_error({"--listen: " + address.error().message});

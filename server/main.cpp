@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
 #include <cstdio>
@@ -39,7 +37,7 @@ int main(int argc, char** argv) {
     add_program_options(app, program, options.timing);
     add_waiting_options(app, program);
     if (const auto code = parse_options(app, argc, argv)) return *code;
-    start_log("swath-server", program);
+    start_log("swath-server", program.least_logged());
 
     const auto address = parse_address(listen);
     if (!address) return usage_error({"--listen: " + address.error().message});

@@ -1,7 +1,5 @@
 #include "client/cluster/cluster_run.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <cstring>
@@ -12,6 +10,7 @@
 #include "client/cost/frame_work.h"
 #include "client/path/path.h"
 #include "common/base/check.h"
+#include "common/base/log.h"
 #include "common/timeline/phase_timer.h"
 
 namespace swath {
@@ -31,7 +30,7 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
       broadcast_([this](NoteTopic topic, FrameNumber frame, const std::string& text) {
           Buffer body(text.size());
           std::memcpy(body.data(), text.data(), text.size());
-          // If the display does not take it, the next frame will show.
+          // A display that does not take it is found out by the next frame.
           (void)machines_->tell_display(Note{topic, frame}, std::move(body));
       }),
       patience_(io) {
@@ -116,7 +115,7 @@ Status ClusterRun::on_started(const std::string& page) {
 void ClusterRun::on_members() {
     if (over_) return;
     const std::size_t servers = machines_->members().size();
-    spdlog::info("{} servers take part", servers);
+    log_info("{} servers take part", servers);
     tell_session();
     Status status;
     if (servers == 0) {
@@ -314,6 +313,7 @@ Status ClusterRun::on_report(std::size_t at, const Report& report, Nanoseconds c
     return run(actions);
 }
 
+// --- a live run
 
 Status ClusterRun::on_audience(const Audience& audience) {
     broadcast_.on_viewers(audience.viewers);
@@ -330,7 +330,7 @@ Status ClusterRun::on_wish(const Wish& wish, const Buffer& body) {
     const std::string_view text(reinterpret_cast<const char*>(body.data()), body.size());
     // A bad wish ends nothing: the next one may be better.
     if (const auto status = live_->on_wish(text, wish.viewer); !status)
-        spdlog::warn("viewer {}: {}", wish.viewer, status.error().message);
+        log_warning("viewer {}: {}", wish.viewer, status.error().message);
     if (live_->take_trace()) broadcast_.on_trace({timelines_.begin(), timelines_.end()});
     tell_state();
     return follow_wish();

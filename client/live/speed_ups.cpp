@@ -5,14 +5,12 @@
 namespace swath {
 namespace {
 
-double ms(Nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
-
 double busiest_cpu_ms(const FrameTimeline& timeline) {
     double most = 0;
     for (const MachineTimeline& machine : timeline.machines) {
         if (!is_server(machine.machine)) continue;
         double sum = 0;
-        for (const Span& span : machine.spans) sum += ms(span.cpu);
+        for (const Span& span : machine.spans) sum += milliseconds(span.cpu);
         most = std::max(most, sum);
     }
     return most;
@@ -28,7 +26,7 @@ bool SpeedUps::on_frame(const FrameOrder& order, const FrameTimeline& timeline,
     algorithm_ = order.algorithm;
     Sum& sum = sums_[order.servers];
     ++sum.frames;
-    sum.interval_ms += ms(*interval);
+    sum.interval_ms += milliseconds(*interval);
     sum.busiest_cpu_ms += busiest_cpu_ms(timeline);
     if (predicted_ms) sum.predicted_ms = predicted_ms;
     return true;

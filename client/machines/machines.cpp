@@ -1,12 +1,11 @@
 #include "client/machines/machines.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <cstring>
 #include <utility>
 
+#include "common/base/log.h"
 #include "common/wire/listener.h"
 
 namespace swath {
@@ -84,7 +83,7 @@ void Machines::on_found(const Result<std::vector<Address>>& found) {
     if (!found || found->empty()) {
         const std::string why = found ? "it has no servers" : found.error().message;
         if (found_) {
-            if (std::exchange(warned_[source], why) != why) spdlog::warn("{}: {}", source, why);
+            if (std::exchange(warned_[source], why) != why) log_warning("{}: {}", source, why);
         } else if ((is_file && !found) || clock_.now() - begin_ > job_.patience) {
             lose(source, why);
         }
@@ -112,7 +111,7 @@ void Machines::find(const Address& address, bool first) {
     if (roster_.full()) {
         const std::string why = fmt::format("{} servers take part, there may be no more", kMaxServers);
         if (std::exchange(warned_[to_string(address)], why) != why)
-            spdlog::warn("server at {}: {}", to_string(address), why);
+            log_warning("server at {}: {}", to_string(address), why);
         return;
     }
     const ServerId id = roster_.add();
@@ -201,7 +200,7 @@ void Machines::drop(ServerId id, const std::string& why) {
     roster_.remove(id);
     const std::string address = to_string(server.address);
     if (std::exchange(warned_[address], why) != why)
-        spdlog::warn("{}: {}; going on without it", server.who, why);
+        log_warning("{}: {}; going on without it", server.who, why);
     if (starting() && servers_.empty()) {
         if (clock_.now() - begin_ > job_.patience) return lose(server.who, why);
         found_ = false;
@@ -245,7 +244,7 @@ Status Machines::on_message(ServerId id, Message&& message, Buffer&& body) {
     if (const auto* ready = std::get_if<Ready>(&message)) return on_ready(id, *ready);
     if (std::holds_alternative<Connected>(message)) {
         SWATH_TRY_VOID(roster_.on_linked(id));
-        if (started_) spdlog::info("{}: takes part", servers_.at(id).who);
+        if (started_) log_info("{}: takes part", servers_.at(id).who);
         warned_.erase(to_string(servers_.at(id).address));
         return advance();
     }
@@ -256,7 +255,7 @@ Status Machines::on_message(ServerId id, Message&& message, Buffer&& body) {
         return {};
     }
     if (std::holds_alternative<Leave>(message)) {
-        spdlog::info("{}: leaves", servers_.at(id).who);
+        log_info("{}: leaves", servers_.at(id).who);
         roster_.on_leave(id);
         update_members();
         release();
@@ -287,7 +286,7 @@ Status Machines::on_ready(ServerId id, const Ready& ready) {
     return bring_up_to_date(id);
 }
 
-// The drawing may have changed while the server got ready.
+// What it has may be out of date: the drawing changed while it got ready.
 Status Machines::bring_up_to_date(ServerId id) {
     const Server& server = servers_.at(id);
     if (server.ready && server.drawing != job_.drawing) SWATH_TRY_VOID(ask(id, job_.drawing));
@@ -354,6 +353,7 @@ void Machines::release() {
     }
 }
 
+// --- drawing differently
 
 Status Machines::reconfigure(const Drawing& drawing, std::size_t objects, Reconfigured done) {
     next_drawing_ = drawing;
@@ -412,7 +412,7 @@ void Machines::use_next_drawing() {
 
 Status Machines::end_change(const std::string& refused) {
     asked_.clear();
-    // A server that came up meanwhile was not asked.
+    // Who came up meanwhile was not asked.
     for (const auto& [id, server] : servers_)
         if (server.ready && server.drawing != job_.drawing) {
             roster_.on_ready(id, false);

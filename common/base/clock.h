@@ -6,6 +6,7 @@ namespace swath {
 
 // The unit of time that programs record and exchange: points on a machine's monotonic clock, and lengths.
 using Nanoseconds = std::chrono::nanoseconds;
+inline double milliseconds(Nanoseconds time) { return static_cast<double>(time.count()) / 1e6; }
 
 // Tells the time. `main` makes a SteadyClock; tests and the simulator bring their own. Implementations are
 // thread-safe.

@@ -1,10 +1,9 @@
 #include "common/program/program.h"
 
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
-
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -12,6 +11,8 @@
 #include <cstdlib>
 #include <iostream>
 #include <thread>
+
+#include "common/base/log.h"
 
 namespace swath {
 namespace asio = boost::asio;
@@ -59,17 +60,9 @@ CLI::Option* add_trees_option(CLI::App& app, bool& cuda) {
         ->check(CLI::IsMember({"threads", "cuda"}));
 }
 
-void start_log(const std::string& program, const ProgramOptions& options) {
-    auto logger =
-        std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>());
-    logger->set_pattern("%H:%M:%S.%e %n %l: %v");
-    logger->set_level(options.quiet ? spdlog::level::err : spdlog::level::info);
-    spdlog::set_default_logger(std::move(logger));
-}
-
 void announce(const Address& address) {
     std::cout << "listening " << to_string(address) << std::endl;
-    spdlog::info("listening on {}", to_string(address));
+    log_info("listening on {}", to_string(address));
 }
 
 int run_until_stopped(asio::io_context& io, SessionHost& host, StopSignals& signals,

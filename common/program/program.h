@@ -1,9 +1,9 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
 #include <cstddef>
 #include <string>
 
+#include "common/base/log.h"
 #include "common/program/cli.h"
 #include "common/program/stop_signals.h"
 #include "common/wire/address.h"
@@ -15,6 +15,8 @@ namespace swath {
 // What the mains of the networked programs have in common, besides cli.h.
 
 struct ProgramOptions {
+    LogLevel least_logged() const { return quiet ? LogLevel::kError : LogLevel::kInfo; }
+
     bool quiet = false;
     bool lifeline = false;
     bool health = false;
@@ -32,9 +34,6 @@ std::size_t drawing_threads(int threads);
 
 // --trees-on threads|cuda: whether ray casters' trees are to be built on a CUDA device.
 CLI::Option* add_trees_option(CLI::App& app, bool& cuda);
-
-// Log lines go to stderr, prefixed by the program.
-void start_log(const std::string& program, const ProgramOptions& options);
 
 // Prints "listening HOST:PORT" to stdout, for whoever started the program with port 0.
 void announce(const Address& address);

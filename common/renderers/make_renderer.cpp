@@ -1,7 +1,6 @@
 #include "common/renderers/make_renderer.h"
 
-#include <spdlog/spdlog.h>
-
+#include "common/base/log.h"
 #include "common/octree/sah/sah_builder.h"
 #include "common/raycast/raycast_renderer.h"
 #include "common/render/gl_renderer.h"
@@ -25,7 +24,7 @@ DefaultRenderer default_renderer() {
 
 bool can_build_on_cuda() {
     const std::string missing = missing_cuda();
-    if (!missing.empty()) spdlog::warn("--trees-on cuda: {}; threads build the trees", missing);
+    if (!missing.empty()) log_warning("--trees-on cuda: {}; threads build the trees", missing);
     return missing.empty();
 }
 

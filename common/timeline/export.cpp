@@ -22,7 +22,6 @@ Nanoseconds earliest_begin(std::span<const FrameTimeline> frames) {
 }
 
 // A double holds whole nanoseconds exactly for 104 days, so six decimals of a millisecond are exact.
-double milliseconds(Nanoseconds t) { return static_cast<double>(t.count()) / 1e6; }
 double microseconds(Nanoseconds t) { return static_cast<double>(t.count()) / 1e3; }
 
 // A span and the track that it is shown on.

@@ -13,8 +13,6 @@ constexpr std::size_t kMaxColumns = 100;
 constexpr std::size_t kMaxNameColumns = 18;
 constexpr std::size_t kMaxServerRows = 16;
 
-double milliseconds(Nanoseconds t) { return static_cast<double>(t.count()) / 1e6; }
-
 double busy_ms(const MachineTimeline& machine) {
     double sum = 0;
     for (const Span& span : machine.spans)

@@ -1,8 +1,8 @@
 #include "common/wire/session_host.h"
 
-#include <spdlog/spdlog.h>
-
 #include <boost/asio/post.hpp>
+
+#include "common/base/log.h"
 
 namespace swath {
 
@@ -64,7 +64,7 @@ Status SessionHost::on_hello(const std::shared_ptr<Connection>& connection, cons
         case Role::kClient:
             if (leaving_) return fail("this {} is being stopped", name_of(options_.role));
             if (session_) return fail("this {} is busy with another client", name_of(options_.role));
-            spdlog::info("client {}: connected", connection->peer());
+            log_info("client {}: connected", connection->peer());
             newcomers_.erase(connection);
             session_ = make_session_(connection);
             return {};
@@ -84,14 +84,14 @@ Status SessionHost::on_hello(const std::shared_ptr<Connection>& connection, cons
 
 void SessionHost::on_closed(const std::shared_ptr<Connection>& connection, const Status& why) {
     if (newcomers_.erase(connection) > 0) {
-        if (!why) spdlog::warn("{}: {}; connection closed", connection->peer(), why.error().message);
+        if (!why) log_warning("{}: {}; connection closed", connection->peer(), why.error().message);
         return;
     }
     if (!session_ || !session_->on_closed(connection, why)) return;
     if (why)
-        spdlog::info("client {}: done", connection->peer());
+        log_info("client {}: done", connection->peer());
     else
-        spdlog::warn("client {}: {}; waiting for the next client", connection->peer(), why.error().message);
+        log_warning("client {}: {}; waiting for the next client", connection->peer(), why.error().message);
     // Let the caller's stack unwind before the session and its connections go.
     boost::asio::post(io_, [session = std::move(session_), on_left = std::move(on_left_)] {
         session->stop();

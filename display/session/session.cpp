@@ -1,12 +1,11 @@
 #include "display/session/session.h"
 
-#include <spdlog/spdlog.h>
-
 #include <boost/asio/post.hpp>
 #include <new>
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/log.h"
 #include "common/timeline/phase_timer.h"
 
 namespace swath {
@@ -40,7 +39,7 @@ bool DisplaySession::on_closed(const std::shared_ptr<Connection>& connection, co
     if (server == servers_.end() || server->second != connection) return false;
     servers_.erase(server);
     if (why) return false;  // a Bye: it has left, or heard before us that the client has ended the run
-    spdlog::warn("lost server {} ({}): {}", index(id), connection->peer(), why.error().message);
+    log_warning("lost server {} ({}): {}", index(id), connection->peer(), why.error().message);
     if (!stopped_) tell(Lost{id, why.error().message});
     return false;
 }

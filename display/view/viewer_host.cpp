@@ -1,7 +1,6 @@
 #include "display/view/viewer_host.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/post.hpp>
@@ -10,6 +9,8 @@
 #include <optional>
 #include <utility>
 #include <variant>
+
+#include "common/base/log.h"
 
 namespace swath {
 namespace asio = boost::asio;
@@ -155,7 +156,7 @@ void ViewerHost::serve() {
         try {
             io_.run();
         } catch (const std::exception& failure) {  // out of memory; the rest goes on
-            spdlog::warn("viewers: {}", failure.what());
+            log_warning("viewers: {}", failure.what());
         }
     }
 }
@@ -255,7 +256,7 @@ void ViewerHost::encode_on_its_thread(EncodePicture&& task) {
             ++encoded_;
             run(viewers_.on_encoded(task.key, message, clock_.now()));
         } catch (const std::exception& failure) {  // out of memory
-            spdlog::warn("a picture for viewers: {}; passed over", failure.what());
+            log_warning("a picture for viewers: {}; passed over", failure.what());
             const std::lock_guard lock(mutex_);
             run(viewers_.on_encoded(task.key, nullptr, clock_.now()));
         }

@@ -1,7 +1,6 @@
 #include "display/view/web_server.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -21,6 +20,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/log.h"
 #include "common/wire/listener.h"
 #include "display/view/admission.h"
 #include "display/web/assets.h"
@@ -50,7 +50,7 @@ auto bound(std::shared_ptr<T> self, void (T::*then)(const error_code&, std::size
         try {
             (self.get()->*then)(error, bytes);
         } catch (const std::exception& failure) {
-            spdlog::warn("a viewer's connection: {}; closed", failure.what());
+            log_warning("a viewer's connection: {}; closed", failure.what());
             self->end();
         }
     };

@@ -1,10 +1,9 @@
 #include "server/session/model_store.h"
 
-#include <spdlog/spdlog.h>
-
 #include <new>
 
 #include "common/base/file.h"
+#include "common/base/log.h"
 #include "common/scene/model.h"
 
 namespace swath {
@@ -15,30 +14,30 @@ constexpr std::uint64_t kMaxBlobBytes = std::uint64_t{64} << 30;
 std::optional<Mesh> ModelStore::find(const std::string& name, const Digest& wanted) const try {
     if (auto mesh = load_model(name)) {
         if (digest(write_blob(*mesh).bytes()) == wanted) return std::move(*mesh);
-        spdlog::info("{}: this machine's file is not the client's model", name);
+        log_info("{}: this machine's file is not the client's model", name);
     } else {
-        spdlog::info("{}; looking in the cache", mesh.error().message);
+        log_info("{}; looking in the cache", mesh.error().message);
     }
     std::error_code ignored;
     if (!std::filesystem::exists(file(wanted), ignored)) return std::nullopt;
     const auto blob = read_file(file(wanted), kMaxBlobBytes);
     if (!blob) {
-        spdlog::warn("model cache: {}", blob.error().message);
+        log_warning("model cache: {}", blob.error().message);
         return std::nullopt;
     }
     if (digest(blob->bytes()) != wanted) {
-        spdlog::warn("model cache: {} is damaged, fetching the model again", file(wanted).string());
+        log_warning("model cache: {} is damaged, fetching the model again", file(wanted).string());
         return std::nullopt;
     }
     auto mesh = read_blob(blob->bytes());
     if (!mesh) {
-        spdlog::warn("model cache: {}: {}; fetching the model again", file(wanted).string(),
-                     mesh.error().message);
+        log_warning("model cache: {}: {}; fetching the model again", file(wanted).string(),
+                    mesh.error().message);
         return std::nullopt;
     }
     return std::move(*mesh);
 } catch (const std::bad_alloc&) {
-    spdlog::warn("{}: not enough memory to read it", name);
+    log_warning("{}: not enough memory to read it", name);
     return std::nullopt;
 }
 
@@ -47,7 +46,7 @@ Result<Mesh> ModelStore::accept(std::span<const std::uint8_t> blob, const Digest
     auto mesh = read_blob(blob);
     if (!mesh) return mesh;
     if (const auto status = write_file(file(wanted), blob); !status)
-        spdlog::warn("model cache: {}", status.error().message);
+        log_warning("model cache: {}", status.error().message);
     return mesh;
 } catch (const std::bad_alloc&) {
     return fail("not enough memory for a model of {} bytes", blob.size());

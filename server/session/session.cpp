@@ -1,12 +1,11 @@
 #include "server/session/session.h"
 
-#include <spdlog/spdlog.h>
-
 #include <boost/asio/post.hpp>
 #include <new>
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/log.h"
 #include "common/timeline/phase_timer.h"
 #include "common/wire/listener.h"
 
@@ -66,9 +65,9 @@ void ServerSession::on_server_closed(ServerId id, const Connection& connection, 
     const auto peer = peers_.find(id);
     if (peer == peers_.end() || peer->second.get() != &connection) return;
     peers_.erase(peer);
-    // A Bye: the peer has left, or heard before us that the client has ended the run.
+    // A Bye comes when a peer has left, or when the client has ended the run and it heard of that before us.
     if (why || !draw_thread_) return;
-    spdlog::warn("lost server {} ({}): {}", index(id), connection.peer(), why.error().message);
+    log_warning("lost server {} ({}): {}", index(id), connection.peer(), why.error().message);
     tell_client(Lost{id, why.error().message});
 }
 
@@ -80,6 +79,7 @@ Status ServerSession::on_message(const std::shared_ptr<Connection>& from, Messag
     return fail("{} is not expected from a display", name(message));
 }
 
+// --- setting up
 
 Status ServerSession::from_client(Message&& message, Buffer&& body) {
     if (const auto* setup = std::get_if<ServerSetup>(&message)) return on_setup(*setup);
@@ -106,7 +106,7 @@ Status ServerSession::on_setup(const ServerSetup& setup) {
                 if (*mesh) {
                     self->load(std::move(**mesh));
                 } else {
-                    spdlog::info("model {}: asking the client for it", self->setup_.model);
+                    log_info("model {}: asking the client for it", self->setup_.model);
                     self->need_model_part();
                 }
                 return {};
@@ -165,9 +165,8 @@ Status ServerSession::on_loaded(const Result<Loaded>& loaded) {
     ready_ = true;
     reconfiguring_ = false;
     setup_.drawing = loaded->drawing;
-    spdlog::info("model {}: {} triangles in {} objects; {}{}{}", setup_.model, loaded->triangles,
-                 loaded->objects, loaded->renderer,
-                 loaded->refused.empty() ? "" : ", still: ", loaded->refused);
+    log_info("model {}: {} triangles in {} objects; {}{}{}", setup_.model, loaded->triangles, loaded->objects,
+             loaded->renderer, loaded->refused.empty() ? "" : ", still: ", loaded->refused);
     tell_client(Ready{loaded->objects, loaded->triangles, loaded->renderer, loaded->refused});
     return {};
 }

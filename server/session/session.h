@@ -65,7 +65,8 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     Status send_tile(OpenFrame& frame);
     Status finish(FrameNumber number);
     void tell_client(const Message& message);
-    // Goes on with something that another thread began, unless the session is over; errors end the session.
+    // Does the rest of something that another thread began, unless the session is over; its errors end the
+    // session.
     void resume(const std::function<Status()>& rest);
     void give_up(const Error& error);
 

@@ -11,6 +11,8 @@
 
 namespace swath::sim {
 
+// The paper compares MAHD and sort-last with the hybrid.
+inline constexpr std::array kPaperAlgorithms{Algorithm::kMahd, Algorithm::kHybrid, Algorithm::kSortLast};
 inline constexpr int kPaperWidth = 1280;
 inline constexpr int kPaperHeight = 960;
 inline constexpr int kPaperDepth = 4;  // depth of the octree that cuts a model into objects

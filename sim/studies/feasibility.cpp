@@ -9,7 +9,6 @@
 namespace swath::sim {
 namespace {
 
-constexpr std::array kPaperAlgorithms{Algorithm::kHybrid, Algorithm::kMahd, Algorithm::kSortLast};
 constexpr std::array kColumns{"ideal_render", "overlap_render", "pixel_read",    "pixel_write", "final_read",
                               "imbalance",    "server_total",   "display_write", "speedup"};
 

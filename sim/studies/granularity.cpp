@@ -8,7 +8,6 @@
 namespace swath::sim {
 namespace {
 
-constexpr std::array kAlgorithms{Algorithm::kMahd, Algorithm::kHybrid, Algorithm::kSortLast};
 constexpr std::array kDepths{3, 4, 5};
 
 // Cuts the subject at kDepths. Models are named by their number of objects.
@@ -37,7 +36,7 @@ Result<std::list<StudyModel>> sah_cuts(const StudySubject& subject, const std::l
 
 Plot figure_12(const StudyContext& context, const std::string& name, const std::list<StudyModel>& models) {
     Plot plot{fmt::format("Client, {}", name), "Objects", "Time (ms a frame, 64 servers)", false, {}};
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const Algorithm algorithm : kPaperAlgorithms) {
         Series series{table_name(algorithm), {}, Style::kLine, {}};
         for (const StudyModel& model : models) {
             const std::size_t objects = model.scene.objects.size();
@@ -59,7 +58,7 @@ Plot figure_13(const Results& results, const std::string& name, const std::list<
     Plot plot{
         fmt::format("Overhead of servers, {}", name), "Objects", "Overhead (% of ideal rendering)", true, {}};
     std::size_t colour = 0;
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const Algorithm algorithm : kPaperAlgorithms) {
         for (const auto& [servers, style] : {std::pair{64u, Style::kLine}, std::pair{16u, Style::kDashed}}) {
             Series series{fmt::format("{}, {} servers", table_name(algorithm), servers), {}, style, colour};
             for (const StudyModel& model : models)
@@ -126,8 +125,9 @@ Status granularity(StudyContext& context) {
     std::vector<Experiment> experiments;
     for (const auto* cut : {&models, &sah_models})
         for (const StudyModel& model : *cut)
-            std::ranges::move(context.experiments(subject, model, kAlgorithms, kPaperWidth, kPaperHeight),
-                              std::back_inserter(experiments));
+            std::ranges::move(
+                context.experiments(subject, model, kPaperAlgorithms, kPaperWidth, kPaperHeight),
+                std::back_inserter(experiments));
     const Results results = context.run(std::move(experiments), "granularity");
     SWATH_TRY_VOID(context.write("granularity.csv", to_csv(results.rows())));
 

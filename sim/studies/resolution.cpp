@@ -3,18 +3,14 @@
 #include "sim/studies/studies.h"
 
 namespace swath::sim {
-namespace {
-
-constexpr std::array kAlgorithms{Algorithm::kMahd, Algorithm::kHybrid, Algorithm::kSortLast};
-
-}  // namespace
+namespace {}  // namespace
 
 Status resolution(StudyContext& context) {
     const StudySubject& subject = context.figures_subject();
     const std::string& name = subject.model.name;
     const Results& low = context.table1();
     const Results high = context.run(
-        context.experiments(subject, subject.model, kAlgorithms, 2 * kPaperWidth, 2 * kPaperHeight),
+        context.experiments(subject, subject.model, kPaperAlgorithms, 2 * kPaperWidth, 2 * kPaperHeight),
         "resolution");
     SWATH_TRY_VOID(context.write("resolution.csv", to_csv(high.rows())));
 

@@ -7,11 +7,9 @@
 namespace swath::sim {
 namespace {
 
-constexpr std::array kAlgorithms{Algorithm::kMahd, Algorithm::kHybrid, Algorithm::kSortLast};
-
 Plot figure_7(const StudyContext& context, const StudySubject& subject) {
     Plot plot{fmt::format("Client, {}", subject.model.name), "Servers", "Time (ms a frame)", false, {}};
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const Algorithm algorithm : kPaperAlgorithms) {
         Series series{table_name(algorithm), {}, Style::kLine, {}};
         for (std::size_t servers = 8; servers <= 64; servers += 8)
             series.points.emplace_back(servers, 1e3 * client_s(subject.model.scene.objects.size(), servers,
@@ -24,7 +22,7 @@ Plot figure_7(const StudyContext& context, const StudySubject& subject) {
 Plot figure_9(const Results& results, const StudySubject& subject) {
     Plot plot{fmt::format("Speed-up, {}", subject.model.name), "Servers", "Speed-up", false, {}};
     std::size_t colour = 0;
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const Algorithm algorithm : kPaperAlgorithms) {
         Series ours{table_name(algorithm), {}, Style::kLine, colour};
         Series paper{table_name(algorithm) + ", paper", {}, Style::kPoints, colour};
         Series full{table_name(algorithm) + ", full mode", {}, Style::kDashed, colour};
@@ -53,7 +51,7 @@ Bars server_bars(const Results& results, const std::string& model, const std::st
     bars.y_label = "Time (ms a frame)";
     bars.segments = {"ideal render", "overlap render", "pixel read",
                      "pixel write",  "final read",     "imbalance"};
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const Algorithm algorithm : kPaperAlgorithms) {
         const bool replicates = grouping_of(algorithm) == Grouping::kAtLeastOnce;
         Bars::Group group{table_name(algorithm), {}};
         for (const std::size_t servers : kPaperServers) {

@@ -7,7 +7,7 @@
 namespace swath::sim {
 namespace {
 
-PageTable comparison(const Results& results, const std::string& model) {
+PageTable sort_first_comparison(const Results& results, const std::string& model) {
     PageTable table{{"servers", "hybrid", "MAHD", "KD-split", "hybrid / MAHD", "MAHD overlap (ms)",
                      "KD-split overlap (ms)", "MAHD imbalance (ms)", "KD-split imbalance (ms)"},
                     {}};
@@ -40,7 +40,7 @@ Status sort_first(StudyContext& context) {
         "similar; both are here.");
     for (const StudySubject& subject : context.subjects())
         page.table(
-            comparison(results, subject.model.name),
+            sort_first_comparison(results, subject.model.name),
             fmt::format("Speed-ups (paper mode) and what costs them, {}. By the paper's table the hybrid "
                         "is 1.4 to 1.8 times as fast as MAHD with 8 servers and 2.9 to 4.5 times with 64.",
                         subject.model.name));

@@ -7,7 +7,7 @@
 namespace swath::sim {
 namespace {
 
-PageTable comparison(const Results& results, const std::string& model) {
+PageTable sort_last_comparison(const Results& results, const std::string& model) {
     PageTable table{{"servers", "hybrid", "sort-last", "hybrid / sort-last", "hybrid read + write (ms)",
                      "sort-last read + write (ms)", "ratio"},
                     {}};
@@ -46,7 +46,7 @@ Status sort_last(StudyContext& context) {
         "exchange borders, its exchange whole areas.");
     for (const StudySubject& subject : context.subjects())
         page.table(
-            comparison(results, subject.model.name),
+            sort_last_comparison(results, subject.model.name),
             fmt::format("Speed-ups (paper mode) and the time for moving pixels, {}. By the paper's table "
                         "the hybrid is 19 to 27 per cent faster than sort-last with 8 servers and 33 to "
                         "63 with 64.",

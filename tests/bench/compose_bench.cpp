@@ -10,20 +10,20 @@
 namespace swath::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Steady = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience(60);
 constexpr std::chrono::milliseconds kBetweenTries(10);
 constexpr int kServers = 4;  // compose.yaml's default
 
 // The time of the first success.
-Clock::time_point first_success(const std::function<bool()>& attempt) {
-    const auto end = Clock::now() + kPatience;
+Steady::time_point first_success(const std::function<bool()>& attempt) {
+    const auto end = Steady::now() + kPatience;
     while (!attempt()) {
-        if (Clock::now() > end) throw std::runtime_error("no picture within a minute");
+        if (Steady::now() > end) throw std::runtime_error("no picture within a minute");
         std::this_thread::sleep_for(kBetweenTries);
     }
-    return Clock::now();
+    return Steady::now();
 }
 
 struct Start {
@@ -35,8 +35,8 @@ struct Start {
 Start cold_start(const test::Image& image, const std::string& model) {
     const test::Cluster cluster(image, {model, "1280x960"});
     const auto address = *parse_address(cluster.view());
-    const auto begin = Clock::now();
-    const auto since = [begin](Clock::time_point t) {
+    const auto begin = Steady::now();
+    const auto since = [begin](Steady::time_point t) {
         return std::chrono::duration<double>(t - begin).count();
     };
 
@@ -62,7 +62,7 @@ Start cold_start(const test::Image& image, const std::string& model) {
     });
     try {
         cluster.up(kServers);
-        start.up_s = since(Clock::now());
+        start.up_s = since(Steady::now());
     } catch (...) {
         failure = std::current_exception();
     }

@@ -38,6 +38,12 @@ Status draw_idle_time(CullingBench& bench);
 Status draw_walk(CullingBench& bench);
 Status draw_time_over_resources(CullingBench& bench);
 
+// The names of ours in tables and plots.
+inline constexpr const char* kOurs = "ours";
+inline constexpr const char* kOursTwo = "ours, 2 threads";
+
+inline constexpr std::uint64_t kPoints = 8 * 256 * 64;  // shaders, textures, meshes
+
 // Random (shader, texture, mesh) of each object, as keys of a space of `points` points.
 std::vector<std::uint32_t> random_keys(std::size_t count, std::uint64_t points, unsigned seed);
 

@@ -14,13 +14,9 @@
 namespace swath::bench {
 namespace {
 
-constexpr std::uint64_t kPoints = 8 * 256 * 64;  // shaders, textures, meshes
-
 constexpr const char* kAlgo5 = "ALGO5 with objects";
 constexpr const char* kBullet = "Bullet btDbvt";
 constexpr const char* kFlat = "flat scan";
-constexpr const char* kOurs = "ours";
-constexpr const char* kOursTwo = "ours, 2 threads";
 
 struct Structures {
     Structures(const BoxSet& set, CullingBench& bench, bool in_order)

@@ -14,8 +14,8 @@
 namespace swath::bench {
 namespace {
 
-constexpr int kWidth = 1280;
-constexpr int kHeight = 960;
+constexpr int kDrawnWidth = 1280;
+constexpr int kDrawnHeight = 960;
 constexpr std::size_t kCameras = 8;
 constexpr std::uint32_t kWholeObjects = 0xffff'ffff;  // triangles in a leaf: each object is its own leaf
 
@@ -97,7 +97,7 @@ Result<std::vector<Frame>> from_inside(const ObjectSet& scene) {
         camera.eye = scene.bounds.centre();
         camera.target = camera.eye + glm::vec3(std::cos(turn), 0, std::sin(turn));
         camera.fov_y = 1;
-        const View view = make_view(with_depth_range(camera, scene.bounds), kWidth, kHeight);
+        const View view = make_view(with_depth_range(camera, scene.bounds), kDrawnWidth, kDrawnHeight);
         frames.push_back({{view, all, view.viewport()}});
     }
     return frames;
@@ -109,7 +109,7 @@ Result<std::vector<Frame>> mahd_of_four(const ObjectSet& scene) {
     const auto partitioner = make_partitioner(Algorithm::kMahd, scene.objects);
     std::vector<Frame> frames;
     for (FrameNumber number = 0; number < cameras.size(); ++number) {
-        const View view = make_view(cameras[number], kWidth, kHeight);
+        const View view = make_view(cameras[number], kDrawnWidth, kDrawnHeight);
         const auto projected = project(scene.objects, view);
         Frame& frame = frames.emplace_back();
         for (const ServerShare& share : partitioner->partition({number, view, projected, 4}).servers)

@@ -9,8 +9,6 @@
 namespace swath::bench {
 namespace {
 
-constexpr std::uint64_t kPoints = 8 * 256 * 64;  // shaders, textures, meshes
-
 // About `visible` of `count` ids, ascending.
 std::vector<std::uint32_t> some_of(std::size_t count, std::size_t visible, unsigned seed) {
     std::mt19937 random(seed);

@@ -17,8 +17,6 @@ constexpr const char* kTwoStepBreadth = "ALGO3: breadth first, 2 thr.";
 constexpr const char* kDelayed = "ADSB, 2 threads";
 constexpr const char* kSame = "ours, every node";
 constexpr const char* kSameTwo = "ours, every node, 2 threads";
-constexpr const char* kOurs = "ours";
-constexpr const char* kOursTwo = "ours, 2 threads";
 
 // A race over one tree; the first runner is ALGO5.
 class TreeRace {

@@ -1,11 +1,10 @@
-#include <spdlog/spdlog.h>
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <map>
 
 #include "common/base/allocator.h"
 #include "common/base/file.h"
+#include "common/base/log.h"
 #include "common/program/program.h"
 #include "tests/bench/figures.h"
 
@@ -54,7 +53,7 @@ int main(int argc, char** argv) {
                  "a small built-in model, once: to see that it runs; the figures mean nothing");
     if (const auto code = parse_options(app, argc, argv)) return *code;
     tune_allocator();
-    spdlog::set_level(spdlog::level::warn);
+    start_log("swath-bench", LogLevel::kWarning);
 
     const Benchmark& benchmark = benchmarks.at(name);
     if (!out.empty() && !benchmark.draws)

@@ -41,6 +41,13 @@ Status bench_octree_trade(OctreeBench& bench);
 
 inline constexpr std::size_t kBuildThreads = 2;
 
+// The names of trees in tables and plots.
+inline constexpr const char* kOursDefault = "ours, default";
+inline constexpr const char* kOursFast = "ours, fast";
+inline constexpr const char* kEmbreeLow = "Embree low";
+inline constexpr const char* kEmbreeMedium = "Embree medium";
+inline constexpr const char* kEmbreeHigh = "Embree high";
+
 // A runner for Race::add_work that builds a tree. prepare() frees the tree before, unmeasured.
 class OurBuild {
   public:

@@ -43,12 +43,7 @@ void EmbreeBuild::prepare() {
 namespace {
 
 constexpr const char* kKdTree = "serial kd-tree";
-constexpr const char* kOurs = "ours, default";
-constexpr const char* kFast = "ours, fast";
 constexpr const char* kFresh = "ours, a new builder each time";
-constexpr const char* kLow = "Embree low";
-constexpr const char* kMedium = "Embree medium";
-constexpr const char* kHigh = "Embree high";
 constexpr const char* kLowAgain = "Embree low, same scene again";
 constexpr const char* kMediumAgain = "Embree medium, same scene again";
 
@@ -119,14 +114,14 @@ Status bench_scene(OctreeBench& bench, const OctreeScene& scene, sim::Bars::Grou
     slow.add_work(
         kKdTree, [&] { kd_tree = fail("nothing built yet"); },
         [&] { kd_tree = build_sah_kd_tree(scene.triangles(), kDefaultSah); });
-    add_build(slow, kOurs, ours);
-    add_build(slow, kHigh, high);
+    add_build(slow, kOursDefault, ours);
+    add_build(slow, kEmbreeHigh, high);
     slow.run(bench.repetitions(scene, 5), 1);
     Race quick(scene.name, scene.name);
-    add_build(quick, kOurs, ours);
-    add_build(quick, kMedium, medium);
-    add_build(quick, kFast, fast);
-    add_build(quick, kLow, low);
+    add_build(quick, kOursDefault, ours);
+    add_build(quick, kEmbreeMedium, medium);
+    add_build(quick, kOursFast, fast);
+    add_build(quick, kEmbreeLow, low);
     add_build(quick, kFresh, fresh);
     add_build(quick, kMediumAgain, medium_again);
     add_build(quick, kLowAgain, low_again);
@@ -142,32 +137,33 @@ Status bench_scene(OctreeBench& bench, const OctreeScene& scene, sim::Bars::Grou
     };
     BuildTable table(scene, cost(*kd_tree));
     table.row(kKdTree, ms(slow.us(kKdTree)), *kd_tree);
-    table.row(kOurs, ms(quick.us(kOurs)), our_tree);
+    table.row(kOursDefault, ms(quick.us(kOursDefault)), our_tree);
     table.row(kFresh, ms(quick.us(kFresh)), our_tree.bytes());
-    table.row(kFast, ms(quick.us(kFast)), fast_tree);
-    table.row(kHigh, ms(slow.us(kHigh)), embree_bytes(EmbreeQuality::kHigh));
-    table.row(kMedium, ms(quick.us(kMedium)), embree_bytes(EmbreeQuality::kMedium));
+    table.row(kOursFast, ms(quick.us(kOursFast)), fast_tree);
+    table.row(kEmbreeHigh, ms(slow.us(kEmbreeHigh)), embree_bytes(EmbreeQuality::kHigh));
+    table.row(kEmbreeMedium, ms(quick.us(kEmbreeMedium)), embree_bytes(EmbreeQuality::kMedium));
     table.row(kMediumAgain, ms(quick.us(kMediumAgain)), medium_again.bytes());
-    table.row(kLow, ms(quick.us(kLow)), embree_bytes(EmbreeQuality::kLow));
+    table.row(kEmbreeLow, ms(quick.us(kEmbreeLow)), embree_bytes(EmbreeQuality::kLow));
     table.row(kLowAgain, ms(quick.us(kLowAgain)), low_again.bytes());
     bench.figures.note(table.text());
 
     const double count = static_cast<double>(scene.set.mesh.triangle_count());
-    const double rates[] = {count / slow.us(kKdTree), count / quick.us(kOurs),   count / quick.us(kFast),
-                            count / slow.us(kHigh),   count / quick.us(kMedium), count / quick.us(kLow)};
+    const double rates[] = {count / slow.us(kKdTree),        count / quick.us(kOursDefault),
+                            count / quick.us(kOursFast),     count / slow.us(kEmbreeHigh),
+                            count / quick.us(kEmbreeMedium), count / quick.us(kEmbreeLow)};
     for (std::size_t i = 0; i < std::size(rates); ++i) {
         sim::Bars::Bar bar{"", std::vector<double>(std::size(rates))};
         bar.values[i] = rates[i];
         bars.bars.push_back(std::move(bar));
     }
     if (!scene.has_bars) return {};
-    bench.figures.add("build_vs_kdtree_" + scene.name, slow.ratios(kKdTree, kOurs), "x",
+    bench.figures.add("build_vs_kdtree_" + scene.name, slow.ratios(kKdTree, kOursDefault), "x",
                       "at least 8: time of the serial SAH kd-tree / ours, 2 threads");
     bench.figures.add("sah_cost_vs_kdtree_" + scene.name, {cost(our_tree) / cost(*kd_tree)}, "x",
                       "at most 1.15: SAH cost, ours / the kd-tree's");
-    bench.figures.add("build_vs_embree_medium_" + scene.name, quick.ratios(kOurs, kMedium), "x",
+    bench.figures.add("build_vs_embree_medium_" + scene.name, quick.ratios(kOursDefault, kEmbreeMedium), "x",
                       "at most 2: time, ours / Embree medium, 2 threads each");
-    bench.figures.add("build_fast_vs_embree_low_" + scene.name, quick.ratios(kFast, kLow), "x",
+    bench.figures.add("build_fast_vs_embree_low_" + scene.name, quick.ratios(kOursFast, kEmbreeLow), "x",
                       "at most 1.5: time, ours with fast settings / Embree low, 2 threads each");
     return {};
 }
@@ -178,7 +174,7 @@ Status bench_octree_builds(OctreeBench& bench) {
     sim::Bars bars;
     bars.title = fmt::format("Building, {} threads (the kd-tree: 1)", kBuildThreads);
     bars.y_label = "million triangles a second";
-    bars.segments = {kKdTree, kOurs, kFast, kHigh, kMedium, kLow};
+    bars.segments = {kKdTree, kOursDefault, kOursFast, kEmbreeHigh, kEmbreeMedium, kEmbreeLow};
     for (const OctreeScene& scene : bench.scenes) {
         sim::Bars::Group group{scene.name, {}};
         SWATH_TRY_VOID(bench_scene(bench, scene, group));

@@ -170,13 +170,8 @@ std::string work_table(const OctreeScene& scene, const Trees& trees) {
     return text;
 }
 
-constexpr const char* kOurs = "ours, default";
-constexpr const char* kFast = "ours, fast";
-constexpr const char* kKdTree = "ours on the kd-tree";
-constexpr const char* kLow = "Embree low";
-constexpr const char* kMedium = "Embree medium";
+constexpr const char* kOursOnKdTree = "ours on the kd-tree";
 constexpr const char* kMediumAvx2 = "Embree medium, avx2";
-constexpr const char* kHigh = "Embree high";
 
 Result<Race> race_scene(OctreeBench& bench, const OctreeScene& scene) {
     SWATH_TRY(const auto trees, build_trees(scene));
@@ -203,14 +198,15 @@ Result<Race> race_scene(OctreeBench& bench, const OctreeScene& scene) {
                            },
                            false});
     };
-    add_ours(kOurs, trees.ours, best_instruction_set());
-    add_embree(kMedium, medium);
+    add_ours(kOursDefault, trees.ours, best_instruction_set());
+    add_embree(kEmbreeMedium, medium);
     for (const InstructionSet set : instruction_sets())
-        if (set != best_instruction_set()) add_ours(fmt::format("{}, {}", kOurs, name(set)), trees.ours, set);
-    add_ours(kFast, trees.fast, best_instruction_set());
-    add_ours(kKdTree, trees.kd, best_instruction_set());
-    add_embree(kLow, low);
-    add_embree(kHigh, high);
+        if (set != best_instruction_set())
+            add_ours(fmt::format("{}, {}", kOursDefault, name(set)), trees.ours, set);
+    add_ours(kOursFast, trees.fast, best_instruction_set());
+    add_ours(kOursOnKdTree, trees.kd, best_instruction_set());
+    add_embree(kEmbreeLow, low);
+    add_embree(kEmbreeHigh, high);
     add_embree(kMediumAvx2, medium_avx2);
 
     SWATH_TRY(const auto edges, check(scene, casters));
@@ -228,10 +224,10 @@ Result<Race> race_scene(OctreeBench& bench, const OctreeScene& scene) {
 }  // namespace
 
 Status bench_octree_rays(OctreeBench& bench) {
-    std::vector<std::string> names{kOurs, kFast, kKdTree};
+    std::vector<std::string> names{kOursDefault, kOursFast, kOursOnKdTree};
     for (const InstructionSet set : instruction_sets())
-        if (set != best_instruction_set()) names.push_back(fmt::format("{}, {}", kOurs, name(set)));
-    names.insert(names.end(), {kHigh, kMedium, kLow, kMediumAvx2});
+        if (set != best_instruction_set()) names.push_back(fmt::format("{}, {}", kOursDefault, name(set)));
+    names.insert(names.end(), {kEmbreeHigh, kEmbreeMedium, kEmbreeLow, kMediumAvx2});
     std::vector<std::string> lines(names.size());
     std::string head = fmt::format("\n{:32}", "Primary rays, one thread");
     std::string units =
@@ -239,7 +235,7 @@ Status bench_octree_rays(OctreeBench& bench) {
     sim::Bars bars;
     bars.title = "Primary rays, one thread";
     bars.y_label = "million rays a second";
-    bars.segments = {kKdTree, kOurs, kFast, kHigh, kMedium, kLow};
+    bars.segments = {kOursOnKdTree, kOursDefault, kOursFast, kEmbreeHigh, kEmbreeMedium, kEmbreeLow};
     for (const OctreeScene& scene : bench.scenes) {
         SWATH_TRY(const auto race, race_scene(bench, scene));
         const auto rate = [&](const std::string& name) {
@@ -248,8 +244,8 @@ Status bench_octree_rays(OctreeBench& bench) {
         head += fmt::format("{:>16}", scene.name);
         units += fmt::format("{:>9} {:>6}", "Mray/s", "/med.");
         for (std::size_t i = 0; i < names.size(); ++i)
-            lines[i] +=
-                fmt::format("{:>9.1f} {:>6.2f}", rate(names[i]), median(race.ratios(kMedium, names[i])));
+            lines[i] += fmt::format("{:>9.1f} {:>6.2f}", rate(names[i]),
+                                    median(race.ratios(kEmbreeMedium, names[i])));
         sim::Bars::Group group{scene.name, {}};
         for (std::size_t i = 0; i < bars.segments.size(); ++i) {
             sim::Bars::Bar bar{"", std::vector<double>(bars.segments.size())};
@@ -258,7 +254,7 @@ Status bench_octree_rays(OctreeBench& bench) {
         }
         bars.groups.push_back(std::move(group));
         if (scene.has_bars)
-            bench.figures.add("rays_vs_embree_" + scene.name, race.ratios(kMedium, kOurs), "x",
+            bench.figures.add("rays_vs_embree_" + scene.name, race.ratios(kEmbreeMedium, kOursDefault), "x",
                               "at least 0.5: primary rays a second, ours / Embree medium, one thread");
     }
     std::string text = head + units;

@@ -80,7 +80,7 @@ struct Entrants {
     EmbreeBuild low;
 };
 
-Result<Race> race_scene(OctreeBench& bench, const OctreeScene& scene) {
+Result<Race> race_threads(OctreeBench& bench, const OctreeScene& scene) {
     const SteadyClock clock;
     SWATH_TRY(const auto tree, OurBuild(scene, kDefaultSah, kBuildThreads).tree());
     EmbreeDevice device(kBuildThreads);
@@ -113,7 +113,7 @@ Status bench_octree_scaling(OctreeBench& bench) {
     const std::vector<std::size_t> counts = thread_counts();
     for (const OctreeScene& scene : bench.scenes) {
         if (!scene.has_bars) continue;
-        SWATH_TRY(const auto race, race_scene(bench, scene));
+        SWATH_TRY(const auto race, race_threads(bench, scene));
         sim::Plot plot;
         plot.title = fmt::format("Speed-up over threads, {}", scene.name);
         plot.x_label = "threads";

@@ -23,7 +23,7 @@ namespace swath::bench {
 namespace {
 
 using nlohmann::json;
-using Clock = std::chrono::steady_clock;
+using Steady = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr std::chrono::seconds kPatience(120);
@@ -33,7 +33,7 @@ constexpr double kInputLagBeyond = 30;                        // ms
 
 // A message to a page: a note, or a picture with its header.
 struct Heard {
-    Clock::time_point at;
+    Steady::time_point at;
     json value;
     bool picture = false;
 };
@@ -54,7 +54,7 @@ class Page {
     std::optional<Heard> hear(std::chrono::milliseconds limit) {
         const auto message = client_->next(limit);
         if (!message) return std::nullopt;
-        Heard heard{Clock::now(), {}, !message->text};
+        Heard heard{Steady::now(), {}, !message->text};
         std::string_view text = message->bytes;
         if (heard.picture) {
             std::uint32_t size = 0;
@@ -214,7 +214,7 @@ Status bench_cost(Figures& figures, const Effort& effort, const Programs& progra
 // Measures the time from a wish to the picture made from it, and the pipeline's own part of that.
 class Lag {
   public:
-    void sent(std::uint64_t wish, Clock::time_point at) { sent_[wish] = at; }
+    void sent(std::uint64_t wish, Steady::time_point at) { sent_[wish] = at; }
 
     void hear(const Heard& heard) {
         const json& value = heard.value;
@@ -257,9 +257,9 @@ class Lag {
         return end - begin;
     }
 
-    std::map<std::uint64_t, Clock::time_point> sent_;  // wishes without a picture yet
-    std::map<std::uint64_t, double> picture_ms_;       // by frame
-    std::map<std::uint64_t, double> pipeline_ms_;      // by frame
+    std::map<std::uint64_t, Steady::time_point> sent_;  // wishes without a picture yet
+    std::map<std::uint64_t, double> picture_ms_;        // by frame
+    std::map<std::uint64_t, double> pipeline_ms_;       // by frame
     std::vector<double> frame_ms_;
     std::size_t pictures_ = 0;
 };
@@ -269,13 +269,13 @@ Status bench_steering(Figures& figures, const Effort& effort, const Programs& pr
     const auto client = programs.start("swath-client", {"builtin:knot:20000", "--local", "2", "--view", "0"});
     SWATH_TRY(auto page, Page::open(client->wait_for_line("viewer http://", kPatience)));
     json wish{{"type", "wish"}, {"id", 0}, {"width", 1280}, {"height", 960}};
-    const auto begin = Clock::now();
+    const auto begin = Steady::now();
     while (!wish.contains("camera")) {
         const auto heard = page->hear(kPatience);
         if (!heard) return fail("no session came");
         if (!heard->picture && heard->value.value("type", "") == "session")
             wish["camera"] = heard->value.at("home");
-        if (Clock::now() - begin > kPatience) return fail("no session came");
+        if (Steady::now() - begin > kPatience) return fail("no session came");
     }
     const json home = wish["camera"];
 
@@ -287,9 +287,9 @@ Status bench_steering(Figures& figures, const Effort& effort, const Programs& pr
     // The first round warms up.
     for (int round = 0; round <= effort.repetitions; ++round) {
         Lag lag;
-        const auto start = Clock::now();
-        for (auto next = start; Clock::now() - start < length;) {
-            if (const auto now = Clock::now(); now >= next) {
+        const auto start = Steady::now();
+        for (auto next = start; Steady::now() - start < length;) {
+            if (const auto now = Steady::now(); now >= next) {
                 const double angle = 0.01 * static_cast<double>(++id);
                 const double dx = home[0].get<double>() - home[3].get<double>();
                 const double dz = home[2].get<double>() - home[5].get<double>();
@@ -300,7 +300,7 @@ Status bench_steering(Figures& figures, const Effort& effort, const Programs& pr
                 page->say(wish);
                 next = std::max(next + kAnimationFrame, now);
             }
-            const auto wait = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
+            const auto wait = std::chrono::ceil<std::chrono::milliseconds>(next - Steady::now());
             if (const auto heard = page->hear(std::max(wait, std::chrono::milliseconds(0)))) lag.hear(*heard);
         }
         if (!page->connected()) return fail("the display has closed the connection");

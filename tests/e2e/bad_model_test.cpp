@@ -15,15 +15,15 @@ std::string ply(int faces, const std::string& rows) {
     return fmt::format(fmt::runtime(kHeader), faces) + rows;
 }
 
-struct Case {
+struct BadModelCase {
     std::string name;
     std::string file;  // its name
     std::string text;
     std::vector<std::string> words;
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const BadModelCase& c, std::ostream* out) { *out << c.name; }
 
-const std::vector<Case> kCases{
+const std::vector<BadModelCase> kBadModels{
     {"EmptyPly", "empty.ply", "", {"empty.ply"}},
     {"EmptyObj", "empty.obj", "", {"empty.obj"}},
     {"TruncatedPly", "short.ply", ply(1, "0 0 0\n1 0 0\n"), {"short.ply", "vertex"}},
@@ -73,13 +73,13 @@ class BadModel : public EndToEnd {
     }
 };
 
-class BadFile : public BadModel, public testing::WithParamInterface<Case> {};
+class BadFile : public BadModel, public testing::WithParamInterface<BadModelCase> {};
 
 TEST_P(BadFile, IsRefusedInOneLine) {
     expect_refused(files_.write(GetParam().file, GetParam().text), GetParam().words);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, BadFile, testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Cases, BadFile, testing::ValuesIn(kBadModels),
                          [](const auto& c) { return c.param.name; });
 
 TEST_F(BadModel, MissingFileIsNamed) {

@@ -7,7 +7,7 @@ namespace swath::test {
 namespace {
 
 const Arguments kCulls{"wide", "a2ssb", "adsb", "none"};
-const Arguments kAlgorithms{"hybrid", "mahd", "kd-split", "sort-last"};
+const Arguments kEveryAlgorithm{"hybrid", "mahd", "kd-split", "sort-last"};
 
 class Culling : public EndToEnd {
   protected:
@@ -18,7 +18,7 @@ class Culling : public EndToEnd {
         std::size_t turn = 0;
         for (const std::string& cull : kCulls) {
             expect_same_pictures(expected, render(arguments + Arguments{"--single", "--cull", cull}));
-            for (const std::string& algorithm : kAlgorithms) {
+            for (const std::string& algorithm : kEveryAlgorithm) {
                 const std::string n = std::to_string(servers[turn++ % servers.size()]);
                 SCOPED_TRACE(fmt::format("{} with {} servers that cull by {}", algorithm, n, cull));
                 expect_same_pictures(expected, render(arguments + Arguments{"--local", n, "--algorithm",

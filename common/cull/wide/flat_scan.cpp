@@ -8,7 +8,7 @@ namespace swath {
 namespace {
 
 constexpr double kBoxNs = 0.5;  // about the time that a box takes
-constexpr std::size_t kPartsAMember = 16;
+constexpr std::size_t kScanPartsAMember = 16;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::span<const std::uint32_t> FlatScan::cull(const Frustum& frustum) {
     const double expected_ns = kBoxNs * blocks_.size();
     const std::size_t members = sharing_.members(expected_ns);
     const std::size_t count = blocks_.block_count();
-    const std::size_t parts = members == 1 ? 1 : std::min(count, kPartsAMember * members);
+    const std::size_t parts = members == 1 ? 1 : std::min(count, kScanPartsAMember * members);
     const auto first_of = [&](std::size_t part) { return part * count / parts; };
     const auto scan = [&](std::size_t part) {
         const std::size_t first = first_of(part);

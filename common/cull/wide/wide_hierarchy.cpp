@@ -13,7 +13,7 @@ constexpr double kBlockNs = 6;
 constexpr double kIdNs = 0.05;
 
 // There are more parts than members, so that none waits long for the last, and enough blocks for the parts.
-constexpr std::size_t kPartsAMember = 16;
+constexpr std::size_t kHierarchyPartsAMember = 16;
 constexpr std::size_t kBlocksAMember = 64;
 
 }  // namespace
@@ -117,7 +117,7 @@ std::span<const std::uint32_t> WideHierarchy::cull_shared(WideWalk walk, std::si
     work_ = walk.work;
 
     const auto count = static_cast<std::size_t>(end - pieces_.data());
-    const std::size_t parts = std::min(count, kPartsAMember * members);
+    const std::size_t parts = std::min(count, kHierarchyPartsAMember * members);
     const auto first_of = [&](std::size_t part) { return part * count / parts; };
     begins_.resize(parts);
     works_.resize(parts);

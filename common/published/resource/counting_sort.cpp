@@ -8,8 +8,8 @@
 namespace swath {
 namespace {
 
-constexpr std::size_t kIdsPerPart = 1 << 14;
-constexpr double kIdNs = 2;  // about
+constexpr std::size_t kCountedIdsPerPart = 1 << 14;
+constexpr double kCountedIdNs = 2;  // about
 
 }  // namespace
 
@@ -21,9 +21,9 @@ CountingSort::CountingSort(std::span<const std::uint32_t> keys, std::uint64_t po
 
 std::span<const std::uint32_t> CountingSort::sort(std::span<const std::uint32_t> visible) {
     // A part with fewer ids than points would spend its time on counters.
-    const double work = kIdNs * static_cast<double>(visible.size());
-    const std::size_t parts =
-        std::min(parts_for(visible.size(), std::max(kIdsPerPart, points_), team_), sharing_.members(work));
+    const double work = kCountedIdNs * static_cast<double>(visible.size());
+    const std::size_t parts = std::min(
+        parts_for(visible.size(), std::max(kCountedIdsPerPart, points_), team_), sharing_.members(work));
     const std::uint32_t* const keys = keys_.data();
     std::uint32_t* const sorted = sorted_.room(visible.size());
     histograms_.resize(parts, points_);

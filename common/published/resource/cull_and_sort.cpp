@@ -16,7 +16,7 @@ namespace {
 constexpr double kScanFrom = 0.4;
 constexpr double kScanTo = 0.8;
 
-constexpr std::size_t kIdsPerPart = 1 << 15;
+constexpr std::size_t kRanksPerPart = 1 << 15;
 
 std::vector<Box> in_order(std::span<const Box> boxes, std::span<const std::uint32_t> ids) {
     std::vector<Box> ordered;
@@ -54,7 +54,7 @@ std::span<const std::uint32_t> CullAndSort::cull(const Frustum& frustum, Way way
 std::span<const std::uint32_t> CullAndSort::ids_of(std::span<const std::uint32_t> ranks) {
     const std::uint32_t* const ids = sorter_.order().ids().data();
     std::uint32_t* const found = scanned_.room(ranks.size());
-    const std::size_t parts = parts_for(ranks.size(), kIdsPerPart, team_);
+    const std::size_t parts = parts_for(ranks.size(), kRanksPerPart, team_);
     run_parts(team_, parts, [&](std::size_t part) {
         const Part range = part_of(ranks.size(), parts, part);
         for (std::size_t i = range.begin; i < range.end; ++i) found[i] = ids[ranks[i]];

@@ -9,8 +9,8 @@
 namespace swath {
 namespace {
 
-constexpr std::size_t kIdsPerPart = 1 << 14;
-constexpr double kIdNs = 2;  // about
+constexpr std::size_t kRadixIdsPerPart = 1 << 14;
+constexpr double kRadixIdNs = 2;  // about
 
 // An entry moves from pass to pass: the rest of the key, above the id. The loops take arguments by value: the
 // compiler would read references again after each counter that it writes.
@@ -79,8 +79,8 @@ RadixSort::RadixSort(std::span<const std::uint32_t> keys, std::uint64_t points, 
 std::span<const std::uint32_t> RadixSort::sort(std::span<const std::uint32_t> visible) {
     const std::size_t size = visible.size();
     if (digits_.count == 0) return visible;
-    const double work = kIdNs * static_cast<double>(size);
-    const std::size_t parts = std::min(parts_for(size, kIdsPerPart, team_), sharing_.members(work));
+    const double work = kRadixIdNs * static_cast<double>(size);
+    const std::size_t parts = std::min(parts_for(size, kRadixIdsPerPart, team_), sharing_.members(work));
     for (std::size_t digit = 0; digit < digits_.count; ++digit)
         histograms_[digit].resize(parts, std::size_t{1} << digits_.bits[digit]);
     std::uint64_t* from = packed_[0].room(size);

@@ -9,8 +9,8 @@
 namespace swath {
 namespace {
 
-constexpr std::size_t kIdsPerPart = 1 << 15;
-constexpr double kIdNs = 1;  // about
+constexpr std::size_t kBitmapIdsPerPart = 1 << 15;
+constexpr double kBitmapIdNs = 1;  // about
 
 }  // namespace
 
@@ -57,8 +57,9 @@ void RankBitmap::mark_gaps(std::span<const std::uint32_t> ids, std::uint32_t beg
 std::span<const std::uint32_t> RankBitmap::sort(std::span<const std::uint32_t> visible) {
     const std::size_t objects = order_.size();
     const std::size_t words = (objects + 63) / 64;
-    const double work = kIdNs * static_cast<double>(visible.size());
-    const std::size_t parts = std::min(parts_for(visible.size(), kIdsPerPart, team_), sharing_.members(work));
+    const double work = kBitmapIdNs * static_cast<double>(visible.size());
+    const std::size_t parts =
+        std::min(parts_for(visible.size(), kBitmapIdsPerPart, team_), sharing_.members(work));
     const bool inverse = visible.size() > objects / 2;
     while (bitmaps_.size() < parts) bitmaps_.emplace_back(words);
     run_parts(team_, parts, [&](std::size_t part) {

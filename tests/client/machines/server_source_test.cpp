@@ -8,7 +8,7 @@
 namespace swath {
 namespace {
 
-using Kind = ServerSource::Kind;
+using SourceKind = ServerSource::Kind;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -20,13 +20,13 @@ std::string refusal(const std::vector<std::string>& texts) {
 TEST(ServerSource, IsAListAHostNameOrAFile) {
     const auto list = parse_server_source({"a:1", "[::1]:2", "dns:3"});
     ASSERT_TRUE(list.has_value());
-    EXPECT_EQ(*list, (ServerSource{Kind::kList, {{"a", 1}, {"::1", 2}, {"dns", 3}}, {}, {}}));
+    EXPECT_EQ(*list, (ServerSource{SourceKind::kList, {{"a", 1}, {"::1", 2}, {"dns", 3}}, {}, {}}));
     const auto name = parse_server_source({"dns:server:4000"});
     ASSERT_TRUE(name.has_value());
-    EXPECT_EQ(*name, (ServerSource{Kind::kName, {}, {"server", 4000}, {}}));
+    EXPECT_EQ(*name, (ServerSource{SourceKind::kName, {}, {"server", 4000}, {}}));
     const auto file = parse_server_source({"file:/tmp/a list:1"});
     ASSERT_TRUE(file.has_value());
-    EXPECT_EQ(*file, (ServerSource{Kind::kFile, {}, {}, "/tmp/a list:1"}));
+    EXPECT_EQ(*file, (ServerSource{SourceKind::kFile, {}, {}, "/tmp/a list:1"}));
     for (const auto& source : {list, name, file}) {
         const std::string text = to_string(*source);
         EXPECT_EQ(*parse_server_source(source == list ? std::vector<std::string>{"a:1", "[::1]:2", "dns:3"}

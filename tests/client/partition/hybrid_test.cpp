@@ -14,16 +14,16 @@ using test::seen;
 using test::unseen;
 using Group = std::vector<ObjectId>;
 
-FramePlan partition(const std::vector<ProjectedObject>& objects, int width, int height, std::size_t servers) {
+FramePlan hybrid(const std::vector<ProjectedObject>& objects, int width, int height, std::size_t servers) {
     return test::partition<Hybrid>(objects, width, height, servers);
 }
 
 // Figure 3 of the paper: left takes 0 (a tie), right takes 3, left takes 1 (a tie), right takes 2. The lines
 // end at 40 and 35, the cut is half-way.
 TEST(Hybrid, DividesTheScreenBetweenTwoServersAsInThePaper) {
-    const FramePlan plan = partition({seen({0, 5, 20, 45}, 10), seen({15, 0, 40, 50}, 10),
-                                      seen({35, 0, 60, 50}, 10), seen({70, 9, 95, 11}, 10)},
-                                     100, 50, 2);
+    const FramePlan plan = hybrid({seen({0, 5, 20, 45}, 10), seen({15, 0, 40, 50}, 10),
+                                   seen({35, 0, 60, 50}, 10), seen({70, 9, 95, 11}, 10)},
+                                  100, 50, 2);
     EXPECT_EQ(plan.servers[0], (ServerShare{{0, 1}, {{0, 0, 38, 50}}, {0, 0, 40, 50}}));
     EXPECT_EQ(plan.servers[1], (ServerShare{{2, 3}, {{38, 0, 100, 50}}, {35, 0, 95, 50}}));
     EXPECT_EQ(transfers(plan), (std::vector<Transfer>{{server_id(0), server_id(1), {{38, 0, 40, 50}}},
@@ -34,7 +34,7 @@ TEST(Hybrid, DividesTheScreenBetweenTwoServersAsInThePaper) {
 // (30 a server). The cut is (30 + 25) / 2, rounded up. The rest right of it is 72 by 80, so it is cut across
 // y, at (40 + 35) / 2.
 TEST(Hybrid, DividesTheScreenAmongThreeServersAlongTheLongerSideOfEachRegion) {
-    const FramePlan plan = partition(
+    const FramePlan plan = hybrid(
         {seen({0, 0, 30, 80}, 30), seen({25, 0, 100, 40}, 30), seen({25, 35, 100, 80}, 30)}, 100, 80, 3);
     EXPECT_EQ(plan.servers[0], (ServerShare{{0}, {{0, 0, 28, 80}}, {0, 0, 30, 80}}));
     EXPECT_EQ(plan.servers[1], (ServerShare{{1}, {{28, 0, 100, 38}}, {25, 0, 100, 40}}));
@@ -44,7 +44,7 @@ TEST(Hybrid, DividesTheScreenAmongThreeServersAlongTheLongerSideOfEachRegion) {
 TEST(Hybrid, GivesASideWorkInProportionToItsServers) {
     std::vector<ProjectedObject> columns;
     for (int x = 0; x < 120; x += 20) columns.push_back(seen({x, 0, x + 20, 40}, 10));
-    const FramePlan plan = partition(columns, 120, 40, 3);
+    const FramePlan plan = hybrid(columns, 120, 40, 3);
     for (int s = 0; s < 3; ++s) {
         const auto first = static_cast<ObjectId>(2 * s);
         EXPECT_EQ(
@@ -56,21 +56,21 @@ TEST(Hybrid, GivesASideWorkInProportionToItsServers) {
 
 TEST(Hybrid, DecidesCutsInTheObjectsRegionButTilesTheWholeScreen) {
     // The objects' region [40,60)x[0,100) is upright on a wide screen: the cut is across y.
-    const FramePlan plan = partition({seen({40, 0, 60, 50}, 1), seen({40, 50, 60, 100}, 1)}, 400, 100, 2);
+    const FramePlan plan = hybrid({seen({40, 0, 60, 50}, 1), seen({40, 50, 60, 100}, 1)}, 400, 100, 2);
     EXPECT_EQ(plan.servers[0].tile, (Region{{0, 0, 400, 50}}));
     EXPECT_EQ(plan.servers[1].tile, (Region{{0, 50, 400, 100}}));
 }
 
 TEST(Hybrid, HandsOutObjectsThatNobodySeesWithoutContent) {
-    const FramePlan plan = partition(
-        {unseen(0, 7), seen({10, 0, 50, 50}, 5), seen({50, 0, 90, 50}, 5), unseen(99, 7)}, 100, 50, 2);
+    const FramePlan plan =
+        hybrid({unseen(0, 7), seen({10, 0, 50, 50}, 5), seen({50, 0, 90, 50}, 5), unseen(99, 7)}, 100, 50, 2);
     EXPECT_EQ(plan.servers[0], (ServerShare{{0, 1}, {{0, 0, 50, 50}}, {10, 0, 50, 50}}));
     EXPECT_EQ(plan.servers[1], (ServerShare{{2, 3}, {{50, 0, 100, 50}}, {50, 0, 90, 50}}));
 }
 
 TEST(Hybrid, GivesObjectsAtTheSamePlaceToEachServerAsARunOfIds) {
     const std::vector<ProjectedObject> stack(12, seen({10, 10, 20, 20}, 1));
-    const FramePlan plan = partition(stack, 100, 100, 4);
+    const FramePlan plan = hybrid(stack, 100, 100, 4);
     for (std::size_t s = 0; s < 4; ++s) {
         Group run(3);
         std::iota(run.begin(), run.end(), static_cast<ObjectId>(3 * s));
@@ -85,8 +85,8 @@ TEST(Hybrid, CutsTheSameWhetherObjectsAreFewOrMany) {
                                            seen({480, 0, 700, 90}, 100), seen({650, 0, 990, 90}, 100)};
     std::vector<ProjectedObject> many;
     for (const ProjectedObject& object : few) many.insert(many.end(), 100, seen(object.box, 1));
-    const FramePlan of_few = partition(few, 1000, 100, 4);
-    const FramePlan of_many = partition(many, 1000, 100, 4);
+    const FramePlan of_few = hybrid(few, 1000, 100, 4);
+    const FramePlan of_many = hybrid(many, 1000, 100, 4);
     for (std::size_t s = 0; s < 4; ++s) {
         EXPECT_EQ(of_few.servers[s].tile, of_many.servers[s].tile);
         EXPECT_EQ(of_few.servers[s].content, of_many.servers[s].content);
@@ -108,8 +108,8 @@ TEST(Hybrid, ExchangesNarrowSwaths) {
         for (const Transfer& transfer : transfers(plan)) pixels += area(transfer.region);
         return static_cast<double>(pixels) / static_cast<double>(plan.view.viewport().area());
     };
-    const double coarse = exchanged(partition(grid_of(40), 1280, 960, 16));
-    const double fine = exchanged(partition(grid_of(10), 1280, 960, 16));
+    const double coarse = exchanged(hybrid(grid_of(40), 1280, 960, 16));
+    const double fine = exchanged(hybrid(grid_of(10), 1280, 960, 16));
     EXPECT_LT(coarse, 0.25);
     EXPECT_LT(fine, 0.5 * coarse);
 }
@@ -134,8 +134,8 @@ TEST(Hybrid, SendsAsManyPixelsAsThePaperSaysOnAverage) {
                 const int y = at();
                 squares.push_back(seen({x, y, x + box, y + box}, 1));
             }
-            const FramePlan plan = partition(squares, kEdge, kEdge,
-                                             static_cast<std::size_t>(root) * static_cast<std::size_t>(root));
+            const FramePlan plan = hybrid(squares, kEdge, kEdge,
+                                          static_cast<std::size_t>(root) * static_cast<std::size_t>(root));
             const auto within = [&](std::size_t server) {
                 const Rect& tile = plan.servers[server].tile.front();
                 return tile.x0 > 0 && tile.y0 > 0 && tile.x1 < kEdge && tile.y1 < kEdge;

@@ -25,7 +25,7 @@ std::vector<Camera> path(const std::string& spec, const PathOptions& options = {
     return made ? *made : std::vector<Camera>{};
 }
 
-std::string error_of(const std::string& spec, const PathOptions& options = {}) {
+std::string path_error(const std::string& spec, const PathOptions& options = {}) {
     const Result<std::vector<Camera>> made = make_path(spec, kModel, options);
     return made ? "no error" : made.error().message;
 }
@@ -150,16 +150,16 @@ TEST(FilePath, IsRepeatedOrCutToTheFramesAskedFor) {
 }
 
 TEST(FilePath, ThatIsMissingOrWrongIsAnErrorThatNamesIt) {
-    EXPECT_THAT(error_of("/nowhere/cameras.txt"), HasSubstr("/nowhere/cameras.txt"));
+    EXPECT_THAT(path_error("/nowhere/cameras.txt"), HasSubstr("/nowhere/cameras.txt"));
     const TemporaryFile file("# nothing\n\n0 0 9\n");
-    EXPECT_THAT(error_of(file.path()), HasSubstr(file.path() + ":3:"));
+    EXPECT_THAT(path_error(file.path()), HasSubstr(file.path() + ":3:"));
 }
 
 TEST(PathOptions, OutOfRangeAreErrorsThatNameThem) {
-    EXPECT_THAT(error_of("orbit", {.frames = 0}), HasSubstr("frames"));
-    EXPECT_THAT(error_of("orbit", {.frames = kMaxPathFrames + 1}), HasSubstr("frames"));
-    EXPECT_THAT(error_of("orbit", {.zoom = 0}), HasSubstr("zoom"));
-    EXPECT_THAT(error_of("orbit", {.aspect = -1}), HasSubstr("aspect"));
+    EXPECT_THAT(path_error("orbit", {.frames = 0}), HasSubstr("frames"));
+    EXPECT_THAT(path_error("orbit", {.frames = kMaxPathFrames + 1}), HasSubstr("frames"));
+    EXPECT_THAT(path_error("orbit", {.zoom = 0}), HasSubstr("zoom"));
+    EXPECT_THAT(path_error("orbit", {.aspect = -1}), HasSubstr("aspect"));
 }
 
 TEST(DepthRange, HoldsTheWholeBoxFromOutside) {

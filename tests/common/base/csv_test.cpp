@@ -8,7 +8,7 @@ namespace {
 
 using testing::ElementsAre;
 
-std::string error_of(std::string_view text) {
+std::string csv_error(std::string_view text) {
     const auto records = parse_csv(text, "a,b", "t.csv");
     return records ? "no error" : records.error().message;
 }
@@ -42,15 +42,15 @@ TEST(ParseCsv, ReadsBackWhatCsvFieldWrote) {
 }
 
 TEST(ParseCsv, NamesTheLineOfWhatIsWrong) {
-    EXPECT_EQ(error_of(""), "t.csv:1: the header is '', expected 'a,b'");
-    EXPECT_EQ(error_of("a,c\n"), "t.csv:1: the header is 'a,c', expected 'a,b'");
-    EXPECT_EQ(error_of("a,b"), "t.csv:1: cut off: the last line has no end");
-    EXPECT_EQ(error_of("a,b\n1,2\n3,4"), "t.csv:3: cut off: the last line has no end");
-    EXPECT_EQ(error_of("a,b\n1,\"2\n\n"), "t.csv:4: cut off: a quoted field has no end");
-    EXPECT_EQ(error_of("a,b\n1,2,3\n"), "t.csv:2: 3 fields, the header has 2");
-    EXPECT_EQ(error_of("a,b\n\n"), "t.csv:2: 1 fields, the header has 2");
-    EXPECT_EQ(error_of("a,b\n1,2\"3\n"), "t.csv:2: a quote inside of a field without quotes");
-    EXPECT_EQ(error_of("a,b\n1,\"2\"3\n"), "t.csv:2: text after a closing quote");
+    EXPECT_EQ(csv_error(""), "t.csv:1: the header is '', expected 'a,b'");
+    EXPECT_EQ(csv_error("a,c\n"), "t.csv:1: the header is 'a,c', expected 'a,b'");
+    EXPECT_EQ(csv_error("a,b"), "t.csv:1: cut off: the last line has no end");
+    EXPECT_EQ(csv_error("a,b\n1,2\n3,4"), "t.csv:3: cut off: the last line has no end");
+    EXPECT_EQ(csv_error("a,b\n1,\"2\n\n"), "t.csv:4: cut off: a quoted field has no end");
+    EXPECT_EQ(csv_error("a,b\n1,2,3\n"), "t.csv:2: 3 fields, the header has 2");
+    EXPECT_EQ(csv_error("a,b\n\n"), "t.csv:2: 1 fields, the header has 2");
+    EXPECT_EQ(csv_error("a,b\n1,2\"3\n"), "t.csv:2: a quote inside of a field without quotes");
+    EXPECT_EQ(csv_error("a,b\n1,\"2\"3\n"), "t.csv:2: text after a closing quote");
 }
 
 TEST(ParseCsv, NeverFailsOtherwiseOnAnyPrefixOfATable) {

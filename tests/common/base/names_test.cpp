@@ -7,39 +7,38 @@
 namespace swath {
 namespace {
 
-enum class Colour { kRed = 1, kGreen, kBlue };
+enum class TestColour { kRed = 1, kGreen, kBlue };
 
 }  // namespace
 
 template <>
-inline constexpr auto kNames<Colour> = names_of<Colour>("colour", {{Colour::kRed, "red"},
-                                                                   {Colour::kGreen, "light green"},
-                                                                   {Colour::kBlue, "blue"}});
+inline constexpr auto kNames<TestColour> = names_of<TestColour>(
+    "colour", {{TestColour::kRed, "red"}, {TestColour::kGreen, "light green"}, {TestColour::kBlue, "blue"}});
 
 namespace {
 
-static_assert(NamedEnum<Colour>);
+static_assert(NamedEnum<TestColour>);
 static_assert(!NamedEnum<int>);
-static_assert(kAll<Colour>.size() == 3);
+static_assert(kAll<TestColour>.size() == 3);
 
 TEST(Names, AreReadBack) {
-    for (const Colour colour : kAll<Colour>) EXPECT_EQ(parse<Colour>(name_of(colour)), colour);
-    EXPECT_EQ(name_of(Colour::kGreen), "light green");
+    for (const TestColour colour : kAll<TestColour>) EXPECT_EQ(parse<TestColour>(name_of(colour)), colour);
+    EXPECT_EQ(name_of(TestColour::kGreen), "light green");
 }
 
 TEST(Names, ThatAreUnknownAreAnErrorThatListsTheKnownOnes) {
-    EXPECT_EQ(parse<Colour>("pink").error().message,
+    EXPECT_EQ(parse<TestColour>("pink").error().message,
               "colour 'pink' is not known; there are: red, light green, blue");
-    EXPECT_FALSE(parse<Colour>("").has_value());
+    EXPECT_FALSE(parse<TestColour>("").has_value());
 }
 
 TEST(Names, OfNumbersThatAreNoValueAreNone) {
-    EXPECT_EQ(value_of<Colour>(3), Colour::kBlue);
-    EXPECT_EQ(value_of<Colour>(0), std::nullopt);
-    EXPECT_EQ(value_of<Colour>(std::uint64_t{1} << 32 | 1), std::nullopt);
+    EXPECT_EQ(value_of<TestColour>(3), TestColour::kBlue);
+    EXPECT_EQ(value_of<TestColour>(0), std::nullopt);
+    EXPECT_EQ(value_of<TestColour>(std::uint64_t{1} << 32 | 1), std::nullopt);
 }
 
-TEST(Names, BelongToEveryValue) { EXPECT_THROW(name_of(static_cast<Colour>(9)), CheckFailed); }
+TEST(Names, BelongToEveryValue) { EXPECT_THROW(name_of(static_cast<TestColour>(9)), CheckFailed); }
 
 }  // namespace
 }  // namespace swath

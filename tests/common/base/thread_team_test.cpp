@@ -8,11 +8,12 @@
 #include <string>
 
 #include "common/base/check.h"
+#include "tests/support/steady_clock.h"
 
 namespace swath {
 namespace {
 
-const SteadyClock kClock;
+using test::kClock;
 
 TEST(ThreadTeam, GivesEveryMemberItsOwnTask) {
     for (const std::size_t size : {1u, 2u, 3u, 7u, 64u}) {

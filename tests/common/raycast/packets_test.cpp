@@ -70,8 +70,8 @@ Found cast_alone(Kernel kernel, const KernelTree& tree, const Cast& cast) {
     return found(hits, 5);
 }
 
-struct Scene {
-    explicit Scene(Triangles of, const SahSettings& settings = kDefaultSah)
+struct PacketScene {
+    explicit PacketScene(Triangles of, const SahSettings& settings = kDefaultSah)
         : triangles(std::move(of)), corners(test::corners_of(triangles)) {
         SahBuilder builder(1);
         sah = test::sah_tree(builder, triangles, settings);
@@ -94,8 +94,8 @@ struct Scene {
     std::vector<std::uint32_t> all;
 };
 
-std::vector<Scene> scenes() {
-    std::vector<Scene> made;
+std::vector<PacketScene> scenes() {
+    std::vector<PacketScene> made;
     made.reserve(4);  // a tree points into its scene
     made.emplace_back(test::soup(700, 0.3f, 1));
     made.emplace_back(test::bumpy_sphere(12, 0.4f, 2), kFastSah);
@@ -170,7 +170,7 @@ void expect_independent(Kernel kernel, const KernelTree& tree, const std::vector
 class Packets : public testing::TestWithParam<InstructionSet> {
   protected:
     const PacketKernels& kernels_ = packet_kernels(GetParam());
-    const std::vector<Scene> scenes_ = scenes();
+    const std::vector<PacketScene> scenes_ = scenes();
     const glm::vec3 eyes_[4] = {{0.3f, 0.1f, -2.5f}, {0, 0, 0}, {2, 2, 2}, {-1.5f, 0.25f, 0.5f}};
 };
 INSTANTIATE_TEST_SUITE_P(With, Packets, testing::ValuesIn(instruction_sets()),
@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(With, Packets, testing::ValuesIn(instruction_sets()),
 
 TEST_P(Packets, FindForARayWhatItFindsAlone) {
     Numbers numbers(1);
-    for (const Scene& scene : scenes_) {
+    for (const PacketScene& scene : scenes_) {
         const std::vector<Cast> pool = casts(scene.triangles, 500, 2);
         std::vector<Found> alone;
         for (const Cast& cast : pool) alone.push_back(cast_alone(kernels_.nearest, scene.tree, cast));
@@ -189,7 +189,7 @@ TEST_P(Packets, FindForARayWhatItFindsAlone) {
 
 TEST_P(Packets, FindByDepthForARayWhatItFindsAlone) {
     Numbers numbers(3);
-    for (const Scene& scene : scenes_)
+    for (const PacketScene& scene : scenes_)
         for (const glm::vec3& eye : eyes_) {
             const std::vector<Cast> pool = casts_from(eye, 200, 4);
             std::vector<Found> alone;
@@ -215,7 +215,7 @@ TEST_P(Packets, WithoutARayFindNothing) {
 // Both kinds of nearest find the best of what every triangle alone gives; of equal ones the smallest number.
 TEST_P(Packets, FindTheBestOfWhatEachTriangleAloneGives) {
     int hits = 0;
-    const auto expect_best = [&hits](Kernel kernel, const Scene& scene, const std::vector<Cast>& pool) {
+    const auto expect_best = [&hits](Kernel kernel, const PacketScene& scene, const std::vector<Cast>& pool) {
         for (const Cast& cast : pool) {
             Found best;
             for (const std::uint32_t t : scene.all) {
@@ -229,7 +229,7 @@ TEST_P(Packets, FindTheBestOfWhatEachTriangleAloneGives) {
             hits += best.triangle != kNoTriangle ? 1 : 0;
         }
     };
-    for (const Scene& scene : scenes_) {
+    for (const PacketScene& scene : scenes_) {
         expect_best(kernels_.nearest, scene, casts(scene.triangles, 130, 5));
         if (HasFatalFailure()) return;
         for (const glm::vec3& eye : eyes_)
@@ -240,7 +240,7 @@ TEST_P(Packets, FindTheBestOfWhatEachTriangleAloneGives) {
 
 // Nothing is found before depth 0, or from depth 1 on.
 TEST_P(Packets, FindNothingOutsideOfDepths) {
-    const Scene& scene = scenes_[0];
+    const PacketScene& scene = scenes_[0];
     for (const Cast& cast : casts_from({0, 0, 0}, 300, 7)) {
         const Found one = cast_alone(kernels_.nearest_by_depth, scene.tree, cast);
         if (one.triangle == kNoTriangle) continue;
@@ -255,7 +255,7 @@ TEST_P(Packets, FindNothingOutsideOfDepths) {
 
 TEST_P(Packets, FindAnyWhereThereIsOneButTheirOwn) {
     Numbers numbers(8);
-    for (const Scene& scene : scenes_) {
+    for (const PacketScene& scene : scenes_) {
         const std::vector<Cast> pool = casts(scene.triangles, 160, 9);
         // The triangles that each ray hits at all.
         std::vector<std::vector<std::uint32_t>> hit(pool.size());
@@ -295,7 +295,7 @@ TEST_P(Packets, FindAnyWhereThereIsOneButTheirOwn) {
 }
 
 TEST_P(Packets, FindTheSameWhenTheyCount) {
-    for (const Scene& scene : scenes_) {
+    for (const PacketScene& scene : scenes_) {
         PacketWork work;
         std::uint64_t calls = 0;
         for (const Cast& cast : casts(scene.triangles, 100, 10)) {
@@ -316,7 +316,7 @@ TEST_P(Packets, FindTheSameWhenTheyCount) {
 }
 
 TEST_P(Packets, CanBeOfAnyLengthOfDirection) {
-    const Scene& scene = scenes_[0];
+    const PacketScene& scene = scenes_[0];
     for (const Cast& cast : casts(scene.triangles, 100, 11)) {
         const auto once = nearest_hit(kernels_, scene.tree, cast.ray);
         for (const int exponent : {-60, -3, 1, 90}) {

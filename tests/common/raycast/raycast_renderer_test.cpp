@@ -48,7 +48,7 @@ struct How {
 };
 constexpr How kHows[] = {{false, false, 1}, {false, true, 2}, {true, false, 2}, {true, true, 1}};
 
-std::unique_ptr<Renderer> make(const ObjectSet& scene, const How& how = {}) {
+std::unique_ptr<Renderer> make_ray_caster(const ObjectSet& scene, const How& how = {}) {
     auto renderer =
         make_raycast_renderer({RendererKind::kRaycast, {how.shadows, how.dynamic}, how.threads}, scene);
     EXPECT_TRUE(renderer.has_value()) << renderer.error().message;
@@ -56,7 +56,7 @@ std::unique_ptr<Renderer> make(const ObjectSet& scene, const How& how = {}) {
 }
 
 PixelFrame draw(const ObjectSet& scene, const View& view, const How& how) {
-    return draw(*make(scene, how), all_of(scene), view, view.viewport());
+    return draw(*make_ray_caster(scene, how), all_of(scene), view, view.viewport());
 }
 // OpenGL is bound to its thread, so it gets one.
 PixelFrame rasterise(const ObjectSet& scene, const View& view) {
@@ -90,7 +90,7 @@ TEST_P(RaycastRendererOf, IsTheSameWithAnyNumberOfThreadsAndATreeForEachFrame) {
 
 TEST_P(RaycastRendererOf, DrawsAPartExactlyAsItIsInTheWhole) {
     for (const How& how : kHows) {
-        const auto renderer = make(scene_, how);
+        const auto renderer = make_ray_caster(scene_, how);
         for (const View& view : views_) {
             const PixelFrame whole = draw(*renderer, all_, view, view.viewport());
             for (const Rect& part : {Rect{20, 10, 70, 50}, Rect{0, 0, 1, 61}, Rect{33, 7, 64, 64 - 7},
@@ -115,10 +115,10 @@ TEST_P(RaycastRendererOf, DrawsTogetherWhatSeveralDrawAndComposite) {
                 for (const DrawRun& run : all_) groups[next() % machines].push_back(run);
                 const Rect screen = view.viewport();
                 const PixelFrame whole = draw(scene_, view, how);
-                PixelFrame frame = draw(*make(scene_, how), groups[0], view, screen);
+                PixelFrame frame = draw(*make_ray_caster(scene_, how), groups[0], view, screen);
                 EXPECT_GT(compare(frame, whole, screen).pixels, 0);
                 for (std::size_t i = 1; i < machines; ++i) {
-                    const PixelFrame more = draw(*make(scene_, how), groups[i], view, screen);
+                    const PixelFrame more = draw(*make_ray_caster(scene_, how), groups[i], view, screen);
                     Buffer body;
                     const BodySizes sizes = encode_swath(more, {screen}, body);
                     ASSERT_TRUE(composite_swath(body.bytes(), sizes, {screen},
@@ -131,7 +131,7 @@ TEST_P(RaycastRendererOf, DrawsTogetherWhatSeveralDrawAndComposite) {
 
 TEST_P(RaycastRendererOf, ForgetsTheFrameBefore) {
     for (const How& how : kHows) {
-        const auto renderer = make(scene_, how);
+        const auto renderer = make_ray_caster(scene_, how);
         const View& view = views_[0];
         const PixelFrame first = draw(*renderer, all_, view, view.viewport());
         draw(*renderer, all_, view_of(scene_, 40, 200), {0, 0, 40, 200});
@@ -147,7 +147,7 @@ TEST(RaycastRenderer, SettlesTiesByTheSmallerId) {
     const ObjectSet scene = test::builtin_scene("town", 5000);
     const View view = view_of(scene);
     const PixelFrame whole = draw(scene, view, {});
-    const auto renderer = make(scene);
+    const auto renderer = make_ray_caster(scene);
     std::vector<DrawRun> all = all_of(scene);
     // Without the winner of a pixel there is often another triangle as near.
     int ties = 0;
@@ -170,7 +170,7 @@ TEST(RaycastRenderer, SettlesTiesByTheSmallerId) {
 TEST(RaycastRenderer, ReadsAPartIntoALargerFrameAndLeavesTheRestAlone) {
     const ObjectSet scene = test::builtin_scene("knot", 2000);
     const View view = view_of(scene);
-    const auto renderer = make(scene);
+    const auto renderer = make_ray_caster(scene);
     const PixelFrame whole = draw(*renderer, all_of(scene), view, view.viewport());
     PixelFrame frame;
     frame.reshape({-3, -2, 120, 80});
@@ -185,7 +185,7 @@ TEST(RaycastRenderer, ReadsAPartIntoALargerFrameAndLeavesTheRestAlone) {
 TEST(RaycastRenderer, ReadsNothingThatItHasNotDrawnOrThatTheFrameDoesNotHold) {
     const ObjectSet scene = test::builtin_scene("knot", 2000);
     for (const How& how : kHows)
-        test::expect_reads_inside_only(*make(scene, how), all_of(scene), view_of(scene));
+        test::expect_reads_inside_only(*make_ray_caster(scene, how), all_of(scene), view_of(scene));
 }
 
 TEST(RaycastRenderer, DoesNotDrawARunOutsideOfItsObject) {
@@ -193,7 +193,7 @@ TEST(RaycastRenderer, DoesNotDrawARunOutsideOfItsObject) {
     const View view = view_of(scene);
     const DrawRun good = all_of(scene)[1];
     for (const How& how : kHows) {
-        const auto renderer = make(scene, how);
+        const auto renderer = make_ray_caster(scene, how);
         for (const int what : {0, 1, 2}) {
             DrawRun run = good;
             if (what == 0) ++run.triangle_count;
@@ -207,7 +207,7 @@ TEST(RaycastRenderer, DoesNotDrawARunOutsideOfItsObject) {
 
 TEST(RaycastRenderer, SaysWhatItIs) {
     const ObjectSet scene = test::builtin_scene("knot", 2000);
-    EXPECT_THAT(make(scene, {true, true, 3})->description(),
+    EXPECT_THAT(make_ray_caster(scene, {true, true, 3})->description(),
                 testing::AllOf(HasSubstr("ray caster"), HasSubstr("3 threads"), HasSubstr("shadows"),
                                HasSubstr("each frame")));
 }
@@ -218,7 +218,7 @@ TEST(RaycastRenderer, RefusesAViewThatIsNoPerspective) {
     const std::vector<DrawRun> all = all_of(scene);
     const View good = view_of(scene);
     for (const How& how : kHows) {
-        const auto renderer = make(scene, how);
+        const auto renderer = make_ray_caster(scene, how);
         const PixelFrame before = draw(*renderer, all, good, good.viewport());
         const glm::mat4 ortho = glm::ortho(-1.0f, 1.0f, -1.0f, 1.0f, 0.1f, 10.0f);
         for (const glm::mat4& matrix : {glm::mat4(0.0f), glm::mat4(1.0f), ortho, glm::mat4(std::nanf("")),
@@ -234,7 +234,7 @@ TEST(RaycastRenderer, RefusesAViewThatIsNoPerspective) {
 }
 
 // Parts that fly apart, and one that stays.
-ObjectSet moving_scene() {
+ObjectSet moving_spheres() {
     Mesh mesh = *make_builtin("spheres", 5000);
     mesh.motion.resize(mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
@@ -244,10 +244,10 @@ ObjectSet moving_scene() {
 
 // A model of any size: the still model is scaled by itself.
 TEST(MovingRaycastRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
-    const ObjectSet moving = moving_scene();
+    const ObjectSet moving = moving_spheres();
     const std::vector<DrawRun> all = all_of(moving);
     for (const How& how : kHows) {
-        const auto renderer = make(moving, how);
+        const auto renderer = make_ray_caster(moving, how);
         std::vector<PixelFrame> pictures;
         for (const float pose : {0.0f, 0.1f, 1.0f / 3, 0.7f, 1.0f, 0.1f}) {
             ObjectSet still = moving;
@@ -268,10 +268,10 @@ TEST(MovingRaycastRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
 
 // A bad pose is an error of that frame only.
 TEST(MovingRaycastRenderer, RefusesAPoseThatIsNotANumberAndGoesOn) {
-    const ObjectSet moving = moving_scene();
+    const ObjectSet moving = moving_spheres();
     const std::vector<DrawRun> all = all_of(moving);
     for (const How& how : kHows) {
-        const auto renderer = make(moving, how);
+        const auto renderer = make_ray_caster(moving, how);
         View view = view_of(moving);
         const PixelFrame before = draw(*renderer, all, view, view.viewport());
         for (const float pose : {1e36f, 1e36f, std::nanf(""), std::nanf("")}) {
@@ -400,8 +400,8 @@ TEST(Shadows, AreWhereThePlateIsInTheLightsWay) {
          {glm::vec3(0, 1, 0), glm::vec3(1, 2, 0.5f), glm::vec3(-1, 1, -1), glm::vec3(0.2f, 0.3f, -0.3f)}) {
         view.to_light = glm::normalize(direction);
         for (const bool dynamic : {false, true}) {
-            const auto renderer = make(scene, {true, dynamic, 2});
-            const auto without = make(scene, {false, dynamic, 1});
+            const auto renderer = make_ray_caster(scene, {true, dynamic, 2});
+            const auto without = make_ray_caster(scene, {false, dynamic, 1});
             const PixelFrame frame = draw(*renderer, all_of(scene), view, view.viewport());
             const PixelFrame lit = draw(*without, all_of(scene), view, view.viewport());
             const glm::dmat4 inverse = glm::inverse(glm::dmat4(view.clip_from_model));
@@ -450,7 +450,7 @@ TEST(Shadows, AreCastByWhatIsNotDrawn) {
         if (scene.objects[run.object].box.max.y < 0.5f) floor.push_back(run);
     ASSERT_LT(floor.size(), scene.objects.size());
     for (const bool dynamic : {false, true}) {
-        const auto renderer = make(scene, {true, dynamic, 1});
+        const auto renderer = make_ray_caster(scene, {true, dynamic, 1});
         const PixelFrame frame = draw(*renderer, floor, view, view.viewport());
         int dark = 0;
         for (int y = 0; y < view.height; ++y)

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using Colour = std::array<std::uint8_t, 4>;
 
-std::string why_not(const std::string& name) {
+std::string why_no_model(const std::string& name) {
     const Result<Mesh> mesh = load_model(name);
     return mesh ? "valid" : mesh.error().message;
 }
@@ -61,13 +61,13 @@ TEST(ModelTest, a_builtin_loads_by_name_and_number_of_triangles) {
 }
 
 TEST(ModelTest, a_wrong_builtin_says_what_there_is) {
-    EXPECT_EQ(why_not("builtin:cow"),
+    EXPECT_EQ(why_no_model("builtin:cow"),
               "builtin:cow: no built-in model `cow`, there are: knot, spheres, town, hand, swarm");
-    EXPECT_THAT(why_not("builtin:"), HasSubstr("there are: knot, spheres, town, hand, swarm"));
-    EXPECT_EQ(why_not("builtin:knot:many"), "builtin:knot:many: `many` is no number of triangles");
-    EXPECT_THAT(why_not("builtin:knot:"), HasSubstr("no number of triangles"));
-    EXPECT_THAT(why_not("builtin:knot:-5"), HasSubstr("no number of triangles"));
-    EXPECT_THAT(why_not("builtin:knot:5"), HasSubstr("the limits are 12 and 50000000"));
+    EXPECT_THAT(why_no_model("builtin:"), HasSubstr("there are: knot, spheres, town, hand, swarm"));
+    EXPECT_EQ(why_no_model("builtin:knot:many"), "builtin:knot:many: `many` is no number of triangles");
+    EXPECT_THAT(why_no_model("builtin:knot:"), HasSubstr("no number of triangles"));
+    EXPECT_THAT(why_no_model("builtin:knot:-5"), HasSubstr("no number of triangles"));
+    EXPECT_THAT(why_no_model("builtin:knot:5"), HasSubstr("the limits are 12 and 50000000"));
 }
 
 TEST(ModelTest, a_ply_file_is_known_by_its_ending_in_any_case) {
@@ -86,7 +86,7 @@ TEST(ModelTest, an_error_names_the_file_once) {
           folder.write("text.ply", "hello"), folder.write("points.obj", "v 0 0 0\np 1\n"),
           folder.write("empty.stl", ""), folder.write("broken.gltf", "{"), folder.write("no.ending", "hello"),
           folder.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}) {
-        const std::string why = why_not(path);
+        const std::string why = why_no_model(path);
         EXPECT_THAT(why, StartsWith(path + ": "));
         EXPECT_THAT(why, ::testing::Not(StartsWith(path + ": " + path + ": ")));
         EXPECT_EQ(why.find('\n'), std::string::npos);
@@ -187,7 +187,7 @@ TEST(ModelTest, normals_stay_across_their_surface_under_any_transform) {
 TEST(ModelTest, a_node_that_moves_the_model_out_of_all_bounds_is_refused) {
     const test::TemporaryFolder folder;
     const std::string path = folder.write("far.gltf", gltf(R"([{"mesh":0,"translation":[1e30,0,0]}])"));
-    EXPECT_THAT(why_not(path), HasSubstr("3 vertices not finite or beyond 1e+18"));
+    EXPECT_THAT(why_no_model(path), HasSubstr("3 vertices not finite or beyond 1e+18"));
 }
 
 TEST(ModelTest, loading_is_deterministic) {

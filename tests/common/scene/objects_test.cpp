@@ -40,7 +40,7 @@ std::map<std::pair<Corners, std::uint32_t>, int> triangles_of(const Mesh& mesh) 
     return result;
 }
 
-bool contains(const Box& outer, const Box& inner) {
+bool encloses(const Box& outer, const Box& inner) {
     Box both = outer;
     both.extend(inner);
     return both == outer;
@@ -107,7 +107,7 @@ TEST(ObjectsTest, a_box_is_that_of_its_whole_triangles) {
         for (std::uint32_t i = 0; i < 3 * object.triangle_count; ++i)
             box.extend(set.mesh.vertices[set.mesh.indices[3 * object.first_triangle + i]].position);
         EXPECT_EQ(object.box, box);
-        EXPECT_TRUE(contains(set.bounds, box));
+        EXPECT_TRUE(encloses(set.bounds, box));
         all.extend(box);
     }
     EXPECT_EQ(set.bounds, all);
@@ -124,19 +124,19 @@ TEST(ObjectsTest, boxes_are_around_what_moves_at_every_pose) {
     // Vertices keep their values.
     EXPECT_EQ(bounds(set.mesh, 1), bounds(mesh, 1));
     EXPECT_EQ(set.end_bounds, bounds(mesh, 1));
-    EXPECT_TRUE(contains(set.swept_bounds(), set.end_bounds));
+    EXPECT_TRUE(encloses(set.swept_bounds(), set.end_bounds));
     for (const float pose : {0.0f, 1e-9f, 0.1f, 1.0f / 3, 0.5f, 0.77f, 0.9999999f, 1.0f}) {
-        EXPECT_TRUE(contains(set.bounds_at(pose), bounds(mesh, pose)));
-        EXPECT_TRUE(contains(set.swept_bounds(), set.bounds_at(pose)));
+        EXPECT_TRUE(encloses(set.bounds_at(pose), bounds(mesh, pose)));
+        EXPECT_TRUE(encloses(set.swept_bounds(), set.bounds_at(pose)));
         for (const Object& object : set.objects) {
-            EXPECT_TRUE(contains(set.bounds_at(pose), object.box_at(pose)));
+            EXPECT_TRUE(encloses(set.bounds_at(pose), object.box_at(pose)));
             for (std::uint32_t i = object.first_leaf; i < object.first_leaf + object.leaf_count; ++i) {
                 const Leaf& leaf = set.leaves[i];
-                EXPECT_TRUE(contains(object.box_at(pose), leaf.box_at(pose)));
+                EXPECT_TRUE(encloses(object.box_at(pose), leaf.box_at(pose)));
                 Box box;
                 for (std::uint32_t c = 0; c < 3 * leaf.triangle_count; ++c)
                     box.extend(posed(set.mesh, set.mesh.indices[3 * leaf.first_triangle + c], pose));
-                EXPECT_TRUE(contains(leaf.box_at(pose), box));
+                EXPECT_TRUE(encloses(leaf.box_at(pose), box));
             }
         }
     }

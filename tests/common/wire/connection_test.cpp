@@ -32,7 +32,7 @@ Buffer noise(std::size_t bytes) {
     return buffer;
 }
 
-std::string bytes_of(const Buffer& buffer) { return {buffer.bytes().begin(), buffer.bytes().end()}; }
+std::string text_of(const Buffer& buffer) { return {buffer.bytes().begin(), buffer.bytes().end()}; }
 
 // Two programs that talk.
 class ConnectionTest : public testing::Test {
@@ -64,7 +64,7 @@ TEST_F(ConnectionTest, BringsMessagesInOrderWithTheirBodies) {
     b_->send(NeedModel{9});
     b_->expect<Connect>();
     EXPECT_EQ(b_->expect<ModelPart>(), ModelPart{5});
-    EXPECT_EQ(bytes_of(b_->body), bytes_of(noise(1000)));
+    EXPECT_EQ(text_of(b_->body), text_of(noise(1000)));
     EXPECT_EQ(a_->expect<NeedModel>(), NeedModel{9});
     EXPECT_EQ(a_->body.size(), 0u);
 }
@@ -72,7 +72,7 @@ TEST_F(ConnectionTest, BringsMessagesInOrderWithTheirBodies) {
 TEST_F(ConnectionTest, BringsABodyOf64MebibytesIntact) {
     a_->send(ModelPart{0}, noise(std::size_t{64} << 20));
     b_->expect<ModelPart>();
-    EXPECT_TRUE(bytes_of(b_->body) == bytes_of(noise(std::size_t{64} << 20)));
+    EXPECT_TRUE(text_of(b_->body) == text_of(noise(std::size_t{64} << 20)));
 }
 
 TEST_F(ConnectionTest, SaysHowManyBytesItAddsToABody) {

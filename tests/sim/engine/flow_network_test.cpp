@@ -17,14 +17,8 @@ using std::chrono::nanoseconds;
 using test::arrivals;
 using testing::ElementsAre;
 
-// One byte a nanosecond: bytes and nanoseconds are the same number.
-constexpr double kOne = 1e9;
-
-NetworkRates hosts(std::size_t count, NicRates nic = {kOne, kOne}) {
-    NetworkRates rates;
-    rates.hosts.assign(count, nic);
-    return rates;
-}
+using test::hosts;
+using test::kOne;
 
 class FlowNetworkTest : public testing::Test {
   protected:

@@ -13,6 +13,12 @@ double seconds(Nanoseconds time) { return static_cast<double>(time.count()) * 1e
 
 }  // namespace
 
+NetworkRates hosts(std::size_t count, NicRates nic) {
+    NetworkRates rates;
+    rates.hosts.assign(count, nic);
+    return rates;
+}
+
 NetworkRates random_rates(std::mt19937_64& random, std::size_t hosts, bool equal) {
     std::uniform_real_distribution<double> rate(1e7, 1e9);
     NetworkRates rates;

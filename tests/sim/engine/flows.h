@@ -15,6 +15,10 @@ struct TestFlow {
     Nanoseconds start{0};
 };
 
+// One byte a nanosecond: bytes and nanoseconds are the same number.
+inline constexpr double kOne = 1e9;
+NetworkRates hosts(std::size_t count, NicRates nic = {kOne, kOne});
+
 // Rates of 10 to 1000 MB/s each way, or all of 100 MB/s.
 NetworkRates random_rates(std::mt19937_64& random, std::size_t hosts, bool equal);
 

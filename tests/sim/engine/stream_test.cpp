@@ -12,16 +12,8 @@ namespace swath::sim {
 namespace {
 
 using std::chrono::nanoseconds;
+using test::hosts;
 using testing::ElementsAre;
-
-// One byte a nanosecond: bytes and nanoseconds are the same number.
-constexpr double kOne = 1e9;
-
-NetworkRates hosts(std::size_t count) {
-    NetworkRates rates;
-    rates.hosts.assign(count, {kOne, kOne});
-    return rates;
-}
 
 TEST(Stream, LetsTheLatencyPassBeforeTheFirstByteFlows) {
     // The second message shares from 400 to 600, when it ends; the first then has 700 of its bytes to go.

@@ -19,7 +19,7 @@ std::string text_of(const std::string& name) {
     return file ? std::string(file->bytes().begin(), file->bytes().end()) : "";
 }
 
-std::string error_of(std::string_view toml) {
+std::string profile_error(std::string_view toml) {
     const Result<Hardware> hardware = parse_hardware(toml, "mine");
     return hardware ? "no error" : hardware.error().message;
 }
@@ -39,7 +39,7 @@ std::string_view needed(const Key& key) {
 }
 
 // The error of paper-2000 with these lines in place of its own.
-std::string error_with(const std::string& lines) { return error_of("base = \"paper-2000\"\n" + lines); }
+std::string error_with(const std::string& lines) { return profile_error("base = \"paper-2000\"\n" + lines); }
 
 Hardware paper_with(const std::string& lines) {
     const Result<Hardware> hardware = parse_hardware("base = \"paper-2000\"\n" + lines, "mine");
@@ -132,13 +132,13 @@ TEST(Profile, ThatCompositesOnTheHostNeedsNoRatesOfWriting) {
                  "compositing = \"host\"\npack = \"1 Gpixel/s\"\nmerge = \"1 Gpixel/s\"");
     for (std::string* text : {&paper, &host})
         text->erase(text->find("write = "), std::string("write = \"10 Mpixel/s\"").size());
-    EXPECT_EQ(error_of(paper), "mine: server.colour.write is missing, expected e.g. \"20 Mpixel/s\"");
-    EXPECT_EQ(error_of(host), "no error");
+    EXPECT_EQ(profile_error(paper), "mine: server.colour.write is missing, expected e.g. \"20 Mpixel/s\"");
+    EXPECT_EQ(profile_error(host), "no error");
 }
 
 TEST(Profile, WithoutABaseNeedsEveryKeyThatIsNotOptional) {
     const std::string paper = text_of("paper-2000.toml");
-    EXPECT_EQ(error_of(paper), "no error");
+    EXPECT_EQ(profile_error(paper), "no error");
     std::size_t removed = 0;
     std::string section;
     for (std::size_t begin = 0, end = 0; begin < paper.size(); begin = end + 1) {
@@ -147,7 +147,7 @@ TEST(Profile, WithoutABaseNeedsEveryKeyThatIsNotOptional) {
         if (line.starts_with('[')) section = line.substr(1, line.find(']') - 1) + ".";
         if (line.empty() || line.starts_with('[') || line.starts_with('#')) continue;
         const std::string key = section + line.substr(0, line.find(' '));
-        const std::string error = error_of(paper.substr(0, begin) + paper.substr(end));
+        const std::string error = profile_error(paper.substr(0, begin) + paper.substr(end));
         if (key == "client.partition_per_server")
             EXPECT_EQ(error, "no error");
         else
@@ -214,15 +214,16 @@ TEST(Profile, NamesAnUnknownKeyAndTheNearestOne) {
 }
 
 TEST(Profile, NamesTheLineOfBrokenToml) {
-    EXPECT_THAT(error_of("about = \"x\"\n[network\n"), StartsWith("mine:2: "));
-    EXPECT_THAT(error_of("about = \"x\"\nabout = \"y\"\n"), StartsWith("mine:2: "));
-    EXPECT_THAT(error_of("about = \"\xff\"\n"), StartsWith("mine:1: "));
+    EXPECT_THAT(profile_error("about = \"x\"\n[network\n"), StartsWith("mine:2: "));
+    EXPECT_THAT(profile_error("about = \"x\"\nabout = \"y\"\n"), StartsWith("mine:2: "));
+    EXPECT_THAT(profile_error("about = \"\xff\"\n"), StartsWith("mine:1: "));
 }
 
 TEST(Profile, IsBasedOnBuiltInOnesOnly) {
-    EXPECT_THAT(error_of("base = \"paper-2001\""),
+    EXPECT_THAT(profile_error("base = \"paper-2001\""),
                 StartsWith("mine:1: base: \"paper-2001\", expected one of paper-2000"));
-    EXPECT_THAT(error_of("base = 2000"), StartsWith("mine:1: base: a number, expected one of paper-2000"));
+    EXPECT_THAT(profile_error("base = 2000"),
+                StartsWith("mine:1: base: a number, expected one of paper-2000"));
 }
 
 TEST(Profile, ThatIsNotKnownIsAnErrorThatListsTheBuiltInOnes) {

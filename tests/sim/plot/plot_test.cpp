@@ -52,7 +52,7 @@ std::string bytes_of(const fs::path& file) {
 
 template <class Picture>
 Drawn drawn(const Picture& picture, const std::string& name = "picture") {
-    const test::TemporaryFolder folder;
+    const swath::test::TemporaryFolder folder;
     const fs::path stem = folder.path_of(name);
     const Status status = draw(picture, stem);
     EXPECT_TRUE(status) << status.error().message;
@@ -145,7 +145,7 @@ TEST(Draw, WritesTheSameBytesAgain) {
 }
 
 TEST(Draw, ShowsHostileNamesAsTheyAre) {
-    const test::TemporaryFolder folder;
+    const swath::test::TemporaryFolder folder;
     const std::string witness = folder.path_of("witness");
     for (const std::string& name :
          {std::string("it's \"quoted\" `touch ") + witness + "`", "'; system('touch " + witness + "'); x='",

@@ -24,7 +24,7 @@ Result<ScenarioOptions> options_of(const std::string& flags, bool many = true) {
     return scenario.read();
 }
 
-std::string error_of(const std::string& flags, bool many = true) {
+std::string options_error(const std::string& flags, bool many = true) {
     const auto options = options_of(flags, many);
     return options ? "no error" : options.error().message;
 }
@@ -73,26 +73,26 @@ TEST(ScenarioFlags, TakeListsAndEachValueOnce) {
 
 TEST(ScenarioFlags, OfASingleRunTakeOneModel) {
     ASSERT_TRUE(options_of("builtin:knot --servers 2,4", false));
-    EXPECT_NE(error_of("builtin:knot builtin:town", false), "no error");
-    EXPECT_THAT(error_of("", false), HasSubstr("MODEL"));
-    EXPECT_THAT(error_of("", true), HasSubstr("--model"));
+    EXPECT_NE(options_error("builtin:knot builtin:town", false), "no error");
+    EXPECT_THAT(options_error("", false), HasSubstr("MODEL"));
+    EXPECT_THAT(options_error("", true), HasSubstr("--model"));
 }
 
 TEST(ScenarioFlags, NameTheServersThatCannotBe) {
     for (const std::string servers : {"0", "1025", "8.5", "x", "8x", "99999999999999999999"})
-        EXPECT_EQ(error_of("--model m --servers 2," + servers),
+        EXPECT_EQ(options_error("--model m --servers 2," + servers),
                   "--servers: '" + servers + "': expected a number from 1 to 1024");
 }
 
 TEST(ScenarioFlags, ListTheAlgorithmsWhereOneIsUnknown) {
-    EXPECT_THAT(error_of("--model m --algorithm hybrid,magic"),
+    EXPECT_THAT(options_error("--model m --algorithm hybrid,magic"),
                 AllOf(HasSubstr("--algorithm"), HasSubstr("magic"), HasSubstr(name_list<Algorithm>())));
 }
 
 TEST(ScenarioFlags, RefuseTwoModelsOfOneName) {
-    EXPECT_EQ(error_of("--model a/dragon.ply --model b/dragon.obj"),
+    EXPECT_EQ(options_error("--model a/dragon.ply --model b/dragon.obj"),
               "two models are called 'dragon': name them, as in a=a/dragon.ply b=b/dragon.obj");
-    EXPECT_EQ(error_of("--model x=a/dragon.ply --model b/dragon.obj"), "no error");
+    EXPECT_EQ(options_error("--model x=a/dragon.ply --model b/dragon.obj"), "no error");
 }
 
 TEST(ScenarioFlags, RefuseNumbersOutOfTheirLimits) {
@@ -118,8 +118,9 @@ TEST(ScenarioFlags, RefuseNumbersOutOfTheirLimits) {
                                     "--objects 0",
                                     "--threads 0",
                                     "--threads 1025"})
-        EXPECT_THAT(error_of("--model m " + flags), HasSubstr(flags.substr(0, flags.find(' ')))) << flags;
-    EXPECT_NE(error_of("--model m --objects 9 --octree-depth 2"), "no error");
+        EXPECT_THAT(options_error("--model m " + flags), HasSubstr(flags.substr(0, flags.find(' '))))
+            << flags;
+    EXPECT_NE(options_error("--model m --objects 9 --octree-depth 2"), "no error");
 }
 
 TEST(ModelName, IsTheFilesUnlessGiven) {

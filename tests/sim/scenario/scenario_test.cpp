@@ -55,7 +55,7 @@ class ScenarioFiles : public testing::Test {
         const std::string_view before = "1.33 us/polygon";
         return files_.write(name, text.replace(text.find(before), before.size(), polygon));
     }
-    test::TemporaryFolder files_;
+    swath::test::TemporaryFolder files_;
 };
 
 TEST(Scenario, CombinesEverythingAndLabelsWhatThereIsSeveralOf) {

@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string text_of(const std::filesystem::path& file) {
+std::string file_text(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     EXPECT_TRUE(stream) << file;
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -27,7 +27,7 @@ std::string text_of(const std::filesystem::path& file) {
 std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
-        files[entry.path().filename().string()] = text_of(entry.path());
+        files[entry.path().filename().string()] = file_text(entry.path());
     return files;
 }
 
@@ -43,7 +43,7 @@ class Study : public testing::Test {
         options.out = files_.path_of(folder);
         return options;
     }
-    test::TemporaryFolder files_;
+    swath::test::TemporaryFolder files_;
 };
 
 // The golden file is made by these commands; look at the difference before.
@@ -51,7 +51,7 @@ class Study : public testing::Test {
 //   cp DIR/table1.csv tests/sim/studies/golden/
 TEST_F(Study, OfFeasibilityMakesTheTableThatItMadeBefore) {
     ASSERT_TRUE(run_studies(small("out", {"feasibility"})));
-    EXPECT_EQ(text_of(files_.path_of("out/table1.csv")), text_of(SWATH_GOLDEN "/table1.csv"));
+    EXPECT_EQ(file_text(files_.path_of("out/table1.csv")), file_text(SWATH_GOLDEN "/table1.csv"));
 }
 
 TEST_F(Study, MakesTheSameBytesOnAnyNumberOfThreads) {
@@ -68,7 +68,7 @@ TEST_F(Study, MakesTheSameBytesOnAnyNumberOfThreads) {
 TEST_F(Study, MakesAPageWhosePicturesAreAllThere) {
     const StudyOptions options = small("page", study_names());
     ASSERT_TRUE(run_studies(options));
-    const std::string html = text_of(options.out / "index.html");
+    const std::string html = file_text(options.out / "index.html");
     std::size_t pictures = 0;
     const std::regex source("src=\"([^\"]+)\"");
     for (std::sregex_iterator at(html.begin(), html.end(), source), end; at != end; ++at, ++pictures)
@@ -90,11 +90,11 @@ TEST_F(Study, PutsThePapersFiguresBesideAModelOfThePaper) {
     StudyOptions options = small("dragon", {"feasibility"});
     options.models = {{"dragon", "builtin:knot:3000"}};
     ASSERT_TRUE(run_studies(options));
-    const std::string html = text_of(options.out / "index.html");
+    const std::string html = file_text(options.out / "index.html");
     EXPECT_THAT(html, HasSubstr("(160.9)"));  // hybrid, 8 servers
     EXPECT_THAT(html, HasSubstr("Buddha is not here"));
     EXPECT_THAT(html, HasSubstr("builtin:hand, a procedural model, stands in for it"));
-    EXPECT_THAT(text_of(options.out / "table1.csv"), HasSubstr("\nhybrid,hand-stand-in,64,speedup,"));
+    EXPECT_THAT(file_text(options.out / "table1.csv"), HasSubstr("\nhybrid,hand-stand-in,64,speedup,"));
 }
 
 TEST_F(Study, NamesWhatIsMissing) {
@@ -140,7 +140,7 @@ TEST_F(Study, GivesFilesPlainNames) {
     ASSERT_TRUE(run_studies(options));
     const std::string name = "figure_9_..~2fa~20b~231~25.svg";
     EXPECT_TRUE(std::filesystem::exists(options.out / name));
-    EXPECT_THAT(text_of(options.out / "index.html"), HasSubstr("src=\"" + name + "\""));
+    EXPECT_THAT(file_text(options.out / "index.html"), HasSubstr("src=\"" + name + "\""));
 }
 
 TEST_F(Study, OfASingleTriangleDividesByNothing) {
@@ -152,17 +152,17 @@ TEST_F(Study, OfASingleTriangleDividesByNothing) {
                                                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")}};
     const Status status = run_studies(options);
     ASSERT_TRUE(status) << status.error().message;
-    EXPECT_FALSE(std::regex_search(text_of(options.out / "index.html"), std::regex("\\b(nan|inf)\\b|>-0")));
+    EXPECT_FALSE(std::regex_search(file_text(options.out / "index.html"), std::regex("\\b(nan|inf)\\b|>-0")));
 }
 
 TEST_F(Study, SaysWhenItsHardwareIsNotThePapers) {
     StudyOptions options = small("paper", {"feasibility"});
     ASSERT_TRUE(run_studies(options));
-    EXPECT_THAT(text_of(options.out / "index.html"), testing::Not(HasSubstr("compare two clusters")));
+    EXPECT_THAT(file_text(options.out / "index.html"), testing::Not(HasSubstr("compare two clusters")));
     options = small("gbe", {"feasibility"});
     options.hardware = "gbe-2026";
     ASSERT_TRUE(run_studies(options));
-    EXPECT_THAT(text_of(options.out / "index.html"), HasSubstr("compare two clusters"));
+    EXPECT_THAT(file_text(options.out / "index.html"), HasSubstr("compare two clusters"));
 }
 
 class StudyFlagsTest : public testing::Test {

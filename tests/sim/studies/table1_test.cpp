@@ -56,7 +56,7 @@ class Table1 : public testing::TestWithParam<std::uint64_t> {
         return found;
     }
 
-    test::TemporaryFolder files_;
+    swath::test::TemporaryFolder files_;
     std::vector<Row> rows_;
 };
 

@@ -28,7 +28,7 @@ Result<JournalContents> read(std::string_view text, std::string_view head = kHea
     return read_journal(text, head, kLabels, "j");
 }
 
-std::string error_of(std::string_view text, std::string_view head = kHead) {
+std::string journal_error(std::string_view text, std::string_view head = kHead) {
     const auto contents = read(text, head);
     return contents ? "no error" : contents.error().message;
 }
@@ -81,7 +81,7 @@ TEST(Journal, ZerosAtTheEndWereNeverWritten) {
         ASSERT_TRUE(contents) << size << ": " << contents.error().message;
         EXPECT_EQ(contents->intact_bytes, read(two.substr(0, size))->intact_bytes) << size;
     }
-    EXPECT_NE(error_of(kHead + std::string(5, '\0') + journal_entry(rows_of(2))), "no error");
+    EXPECT_NE(journal_error(kHead + std::string(5, '\0') + journal_entry(rows_of(2))), "no error");
 }
 
 TEST(Journal, AnyOtherByteInItIsNoticed) {
@@ -91,69 +91,69 @@ TEST(Journal, AnyOtherByteInItIsNoticed) {
             std::string changed = text;
             if (changed[at] == other) continue;
             changed[at] = other;
-            const std::string error = error_of(changed);
+            const std::string error = journal_error(changed);
             EXPECT_THAT(error, StartsWith("j:")) << at << " " << other;
             EXPECT_EQ(error.find('\n'), error.npos) << error;
         }
         std::string shorter = text;
         shorter.erase(at, 1);
-        EXPECT_NE(error_of(shorter), "no error") << at;
+        EXPECT_NE(journal_error(shorter), "no error") << at;
     }
 }
 
 TEST(Journal, OfOtherSettingsIsAnErrorThatNamesTheFirstDifference) {
     const auto head = [](std::vector<std::string> settings) { return journal_head(settings); };
     const std::string entry = journal_entry(rows_of(0));
-    EXPECT_EQ(error_of(head({"path orbit", "", "model x"}) + entry),
+    EXPECT_EQ(journal_error(head({"path orbit", "", "model x"}) + entry),
               "j:2: the journal of another sweep: it has '# path orbit', this one '# path random'");
     EXPECT_EQ(
-        error_of(head({"path random", "", "model knot: 400 polygons", "more"}) + entry),
+        journal_error(head({"path random", "", "model knot: 400 polygons", "more"}) + entry),
         "j:4: the journal of another sweep: it has '# model knot: 400 polygons', this one '# model knot: 300 "
         "polygons'");
-    EXPECT_EQ(error_of(head({"path random", "", "model knot: 300 polygons", "more"}) + entry),
+    EXPECT_EQ(journal_error(head({"path random", "", "model knot: 300 polygons", "more"}) + entry),
               "j:5: the journal of another sweep: it has '# more', this one "
               "'algorithm,model,servers,column,value'");
     EXPECT_EQ(
-        error_of(head({"path random", ""}) + entry),
+        journal_error(head({"path random", ""}) + entry),
         "j:4: the journal of another sweep: it has 'algorithm,model,servers,column,value', this one '# model "
         "knot: 300 polygons'");
-    EXPECT_EQ(error_of("letter to a friend\n"), "j:1: not the journal of a sweep");
-    EXPECT_EQ(error_of("algorithm,model,servers,column,value\nhybrid,knot,2,speedup,1\n"),
+    EXPECT_EQ(journal_error("letter to a friend\n"), "j:1: not the journal of a sweep");
+    EXPECT_EQ(journal_error("algorithm,model,servers,column,value\nhybrid,knot,2,speedup,1\n"),
               "j:1: not the journal of a sweep");
 }
 
 TEST(Journal, RowsOfNoExperimentAreAnError) {
-    EXPECT_EQ(error_of(kHead + journal_entry(rows_of(0) + "hybrid,knot,3,speedup,1\n")),
+    EXPECT_EQ(journal_error(kHead + journal_entry(rows_of(0) + "hybrid,knot,3,speedup,1\n")),
               "j:8: no experiment of this sweep: hybrid, knot, 3 servers");
-    EXPECT_EQ(error_of(kHead + "mahd,knot,2,speedup,1\n"),
+    EXPECT_EQ(journal_error(kHead + "mahd,knot,2,speedup,1\n"),
               "j:6: no experiment of this sweep: mahd, knot, 2 servers");
-    EXPECT_EQ(error_of(kHead + journal_entry(rows_of(0) + rows_of(1))),
+    EXPECT_EQ(journal_error(kHead + journal_entry(rows_of(0) + rows_of(1))),
               "j:8: a row of another experiment than those before: hybrid, knot, 4 servers");
-    EXPECT_EQ(error_of(kHead + journal_entry("")), "j:6: an end without rows");
+    EXPECT_EQ(journal_error(kHead + journal_entry("")), "j:6: an end without rows");
 }
 
 TEST(Journal, AnExperimentTwiceIsAnError) {
     const std::string once = kHead + journal_entry(rows_of(0)) + journal_entry(rows_of(1));
     const std::string error = "j:12: an experiment for the second time: hybrid, knot, 2 servers";
-    EXPECT_EQ(error_of(once + journal_entry(rows_of(0))), error);
-    EXPECT_EQ(error_of(once + rows_of(0)), error) << "also one that is cut off";
+    EXPECT_EQ(journal_error(once + journal_entry(rows_of(0))), error);
+    EXPECT_EQ(journal_error(once + rows_of(0)), error) << "also one that is cut off";
 }
 
 TEST(Journal, NumbersThatAreNoneAreAnError) {
-    EXPECT_EQ(error_of(kHead + journal_entry("hybrid,knot,2,speedup,fast\n")),
+    EXPECT_EQ(journal_error(kHead + journal_entry("hybrid,knot,2,speedup,fast\n")),
               "j:6: value: 'fast' is not a number");
-    EXPECT_EQ(error_of(kHead + journal_entry(rows_of(0) + "hybrid,knot,2,full_frame,nan\n")),
+    EXPECT_EQ(journal_error(kHead + journal_entry(rows_of(0) + "hybrid,knot,2,full_frame,nan\n")),
               "j:8: value: 'nan' is not a number");
-    EXPECT_EQ(error_of(kHead + "hybrid,knot,-2,speedup,1\n"),
+    EXPECT_EQ(journal_error(kHead + "hybrid,knot,-2,speedup,1\n"),
               "j:6: servers: '-2' is not a whole number of 0 to 1000000");
 }
 
 TEST(Journal, GarbageIsAnError) {
     const std::string entry = journal_entry(rows_of(0));
-    EXPECT_EQ(error_of(kHead + "garbage\n" + entry), "j:6: 1 fields, the header has 5");
-    EXPECT_EQ(error_of(kHead + entry + "garbage\n"), "j:9: 1 fields, the header has 5");
-    EXPECT_EQ(error_of(kHead + "# note\n" + entry), "j:6: neither a row nor '# complete '");
-    EXPECT_EQ(error_of(kHead + rows_of(0) + "# complete 0123456789abcdef\n"),
+    EXPECT_EQ(journal_error(kHead + "garbage\n" + entry), "j:6: 1 fields, the header has 5");
+    EXPECT_EQ(journal_error(kHead + entry + "garbage\n"), "j:9: 1 fields, the header has 5");
+    EXPECT_EQ(journal_error(kHead + "# note\n" + entry), "j:6: neither a row nor '# complete '");
+    EXPECT_EQ(journal_error(kHead + rows_of(0) + "# complete 0123456789abcdef\n"),
               "j:8: the rows before are not as they were written");
 }
 

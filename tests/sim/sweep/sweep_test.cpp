@@ -25,7 +25,7 @@ std::string contents(const std::string& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-ScenarioOptions small() {
+ScenarioOptions small_sweep() {
     ScenarioOptions options;
     options.models = {{"knot", "builtin:knot:300"}};
     options.algorithms = {Algorithm::kHybrid, Algorithm::kSortLast};
@@ -44,7 +44,7 @@ class Sweep : public testing::Test {
         return run_on(*scenario_, folder, threads);
     }
     Result<SweepResult> run_on(const Scenario& scenario, const std::string& folder, std::size_t threads = 1) {
-        SweepOptions options{small(), files_.path_of(folder), true};
+        SweepOptions options{small_sweep(), files_.path_of(folder), true};
         options.scenario.threads = threads;
         testing::internal::CaptureStderr();
         auto result = run_sweep(scenario, options, SteadyClock());
@@ -63,8 +63,8 @@ class Sweep : public testing::Test {
         files_.write(folder + "/sweep.journal", text);
     }
 
-    test::TemporaryFolder files_;
-    const Result<Scenario> scenario_ = Scenario::load(small());
+    swath::test::TemporaryFolder files_;
+    const Result<Scenario> scenario_ = Scenario::load(small_sweep());
     std::string notices_;
 };
 
@@ -142,7 +142,7 @@ TEST_F(Sweep, TellsThatAnEntryWasCutOff) {
 
 TEST_F(Sweep, TouchesNothingWhereTheJournalIsNotItsOwn) {
     ASSERT_TRUE(run("out"));
-    ScenarioOptions changed = small();
+    ScenarioOptions changed = small_sweep();
     changed.path.frames = 3;
     const auto other = Scenario::load(changed);
     ASSERT_TRUE(other);
@@ -229,7 +229,7 @@ TEST_F(Sweep, LosesNothingWhenTheDiskIsFull) {
         {
             const FullDisk disk(limit);
             // CaptureStderr has a file, too.
-            SweepOptions options{small(), files_.path_of(folder), true};
+            SweepOptions options{small_sweep(), files_.path_of(folder), true};
             options.scenario.threads = 3;
             const auto result = run_sweep(*scenario_, options, SteadyClock());
             ASSERT_FALSE(result) << limit;

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 
 const std::string kHeader = "algorithm,model,servers,column,value\n";
 
-std::string error_of(const std::string& lines) {
+std::string table_error(const std::string& lines) {
     const auto rows = parse_table(kHeader + lines, "t.csv");
     return rows ? "no error" : rows.error().message;
 }
@@ -64,22 +64,22 @@ TEST(Table, ReadsRowsOfAModelAndOfOneMachine) {
 }
 
 TEST(Table, NamesTheLineAndTheFieldOfWhatIsWrong) {
-    EXPECT_EQ(error_of(",m,1,c,2\n"), "t.csv:2: algorithm is empty");
-    EXPECT_EQ(error_of("a,,1,c,2\n"), "t.csv:2: model is empty");
-    EXPECT_EQ(error_of("a,m,1,,2\n"), "t.csv:2: column is empty");
-    EXPECT_EQ(error_of("a,m,1,c,2\na,m,-1,c,2\n"),
+    EXPECT_EQ(table_error(",m,1,c,2\n"), "t.csv:2: algorithm is empty");
+    EXPECT_EQ(table_error("a,,1,c,2\n"), "t.csv:2: model is empty");
+    EXPECT_EQ(table_error("a,m,1,,2\n"), "t.csv:2: column is empty");
+    EXPECT_EQ(table_error("a,m,1,c,2\na,m,-1,c,2\n"),
               "t.csv:3: servers: '-1' is not a whole number of 0 to 1000000");
-    EXPECT_EQ(error_of("a,m,8.5,c,2\n"), "t.csv:2: servers: '8.5' is not a whole number of 0 to 1000000");
-    EXPECT_EQ(error_of("a,m,1000001,c,2\n"),
+    EXPECT_EQ(table_error("a,m,8.5,c,2\n"), "t.csv:2: servers: '8.5' is not a whole number of 0 to 1000000");
+    EXPECT_EQ(table_error("a,m,1000001,c,2\n"),
               "t.csv:2: servers: '1000001' is not a whole number of 0 to 1000000");
-    EXPECT_EQ(error_of("a,m,99999999999999999999,c,2\n"),
+    EXPECT_EQ(table_error("a,m,99999999999999999999,c,2\n"),
               "t.csv:2: servers: '99999999999999999999' is not a whole number of 0 to 1000000");
     for (const std::string value : {"", "x", "nan", "inf", "-inf", "1e999", "1,5", "1.5ms", " 1", "0x10"}) {
         const std::string quoted = value == "1,5" ? "\"1,5\"" : value;
-        EXPECT_EQ(error_of("a,m,1,c," + quoted + "\n"), "t.csv:2: value: '" + value + "' is not a number");
+        EXPECT_EQ(table_error("a,m,1,c," + quoted + "\n"), "t.csv:2: value: '" + value + "' is not a number");
     }
-    EXPECT_EQ(error_of("a,m,1,c\n"), "t.csv:2: 4 fields, the header has 5");
-    EXPECT_EQ(error_of("a,m,1,c,2"), "t.csv:2: cut off: the last line has no end");
+    EXPECT_EQ(table_error("a,m,1,c\n"), "t.csv:2: 4 fields, the header has 5");
+    EXPECT_EQ(table_error("a,m,1,c,2"), "t.csv:2: cut off: the last line has no end");
     EXPECT_EQ(parse_table("frame,machine\n", "t.csv").error().message,
               "t.csv:1: the header is 'frame,machine', expected 'algorithm,model,servers,column,value'");
 }
@@ -111,7 +111,7 @@ TEST(Table, IsTheSameInALocaleWithDecimalCommas) {
     };
     const std::locale before = std::locale::global(std::locale(std::locale(), new Commas));
     const std::string text = value_text(1234.5);
-    const std::string error = error_of("a,m,1000,c,1234.5\n");
+    const std::string error = table_error("a,m,1000,c,1234.5\n");
     std::locale::global(before);
     EXPECT_EQ(text, "1234.5\n");
     EXPECT_EQ(error, "no error");

@@ -4,11 +4,12 @@
 
 #include "common/cull/wide/flat_scan.h"
 #include "tests/common/cull/wide/random_scene.h"
+#include "tests/support/steady_clock.h"
 
 namespace swath {
 namespace {
 
-const SteadyClock kClock;
+using test::kClock;
 constexpr std::size_t kSizes[] = {0, 1, 2, 15, 16, 17, 31, 255, 256, 257, 300, 4095, 4096, 4097, 5001};
 
 TEST(WideHierarchy, AndTheFlatScanKeepExactlyWhatIsNotOutside) {

@@ -7,13 +7,14 @@
 
 #include "common/published/cull/published_walk.h"
 #include "tests/common/published/cull/frusta.h"
+#include "tests/support/steady_clock.h"
 
 namespace swath {
 namespace {
 
 using Counts = std::array<std::uint64_t, 4>;
 
-const SteadyClock kClock;
+using test::kClock;
 const UniformOctree kNineLevels(8);
 
 class AdsbCounts : public testing::Test {

@@ -6,11 +6,12 @@
 
 #include "common/published/cull/published_walk.h"
 #include "tests/common/published/cull/frusta.h"
+#include "tests/support/steady_clock.h"
 
 namespace swath {
 namespace {
 
-const SteadyClock kClock;
+using test::kClock;
 
 TEST(A2ssbCost, CountsTheNodesThatTheChapterPrints) {
     EXPECT_EQ(nodes_up_to(6), 299'593);     // table 3.10

@@ -10,13 +10,14 @@
 #include "common/published/cull/octree_culler.h"
 #include "tests/common/published/cull/boxes.h"
 #include "tests/common/published/cull/frusta.h"
+#include "tests/support/steady_clock.h"
 
 namespace swath {
 namespace {
 
 using testing::ElementsAreArray;
 
-const SteadyClock kClock;
+using test::kClock;
 
 std::vector<std::uint32_t> brute_force(std::span<const Box> boxes, const Frustum& frustum) {
     std::vector<std::uint32_t> visible;

@@ -8,13 +8,14 @@
 
 #include "common/published/cull/split_level.h"
 #include "tests/common/published/cull/frusta.h"
+#include "tests/support/steady_clock.h"
 
 namespace swath {
 namespace {
 
 using Codes = std::vector<std::uint32_t>;
 
-const SteadyClock kClock;
+using test::kClock;
 constexpr std::array kAlgorithms{PublishedAlgorithm::kAdsb,       PublishedAlgorithm::kAlgo1,
                                  PublishedAlgorithm::kAlgo2,      PublishedAlgorithm::kAlgo3,
                                  PublishedAlgorithm::kAlgo4,      PublishedAlgorithm::kAlgo5,

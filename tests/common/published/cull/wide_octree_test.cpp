@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/common/cull/wide/random_scene.h"
+#include "tests/support/steady_clock.h"
 
 namespace swath {
 namespace {
 
-const SteadyClock kClock;
+using test::kClock;
 
 // The canonical walk, ALGO5, over the implicit tree.
 struct Canonical {
