@@ -19,39 +19,39 @@ namespace {
 // A program leaves as soon as its lifeline closes. One that is frozen cannot, and is killed after this.
 constexpr auto kLeavePatience = std::chrono::milliseconds(300);
 
-// Both ends close on exec: a child that inherited another child's lifeline would keep that child alive.
-struct Pipe {
-    std::array<int, 2> ends{-1, -1};  // to read from, to write to
-    Pipe() {
-        if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-            throw std::system_error(errno, std::generic_category(), "pipe");
-    }
-    ~Pipe() {
-        close(0);
-        close(1);
-    }
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    void close(std::size_t end) {
-        if (ends[end] >= 0) ::close(std::exchange(ends[end], -1));
-    }
-};
-
-// Without its end; what there is when the program ends before that.
-std::string read_line(const Pipe& pipe) {
-    std::string line;
-    char c = 0;
-    for (;;) {
-        const ssize_t got = ::read(pipe.ends[0], &c, 1);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0 || c == '\n') return line;
-        line += c;
-    }
-}
-
 }  // namespace
 
 struct LocalCluster::Child {
+    // Both ends close on exec: a child that inherited another child's lifeline would keep that child alive.
+    struct Pipe {
+        std::array<int, 2> ends{-1, -1};  // to read from, to write to
+        Pipe() {
+            if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+                throw std::system_error(errno, std::generic_category(), "pipe");
+        }
+        ~Pipe() {
+            close(0);
+            close(1);
+        }
+        Pipe(const Pipe&) = delete;
+        Pipe& operator=(const Pipe&) = delete;
+        void close(std::size_t end) {
+            if (ends[end] >= 0) ::close(std::exchange(ends[end], -1));
+        }
+
+        // Without its end; what there is when the program ends before that.
+        std::string read_line() const {
+            std::string line;
+            char c = 0;
+            for (;;) {
+                const ssize_t got = ::read(ends[0], &c, 1);
+                if (got < 0 && errno == EINTR) continue;
+                if (got <= 0 || c == '\n') return line;
+                line += c;
+            }
+        }
+    };
+
     std::string name;
     Pipe lifeline;
     Pipe output;
@@ -99,7 +99,7 @@ Result<std::unique_ptr<LocalCluster>> LocalCluster::start(const Options& options
     }
     for (std::size_t i = 0; i < cluster->children_.size(); ++i) {
         Child& child = *cluster->children_[i];
-        const std::string line = read_line(child.output);
+        const std::string line = child.output.read_line();
         static constexpr std::string_view kAnnouncement = "listening ";
         if (!line.starts_with(kAnnouncement)) return fail("{} did not start", child.name);
         SWATH_TRY(const auto address, parse_address(std::string_view(line).substr(kAnnouncement.size())));
