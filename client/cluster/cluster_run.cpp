@@ -70,8 +70,8 @@ void ClusterRun::start() {
         return self ? self->on_display(std::move(message), body) : Status();
     };
     handlers.on_lost = [weak](const std::string& who, const std::string& why) {
-        // run() of an abort cannot fail.
-        if (const auto self = weak.lock()) (void)self->run(self->director_.on_lost(who, why));
+        // perform() of an abort cannot fail.
+        if (const auto self = weak.lock()) (void)self->perform(self->director_.on_lost(who, why));
     };
     machines_ = std::make_shared<Machines>(io_, std::move(job), clock_, std::move(handlers));
     machines_->start();
@@ -108,7 +108,7 @@ Status ClusterRun::on_started(const std::string& page) {
     if (live_) live_->on_servers(machines_->members().size());
     tell_session();
     handlers_.on_ready(page, machines_->members().size());
-    SWATH_TRY_VOID(run(director_.on_start()));
+    SWATH_TRY_VOID(perform(director_.on_start()));
     return follow_wish();
 }
 
@@ -120,7 +120,7 @@ void ClusterRun::on_members() {
     Status status;
     if (servers == 0) {
         await_servers();
-        status = run(director_.on_reconfigure());
+        status = perform(director_.on_reconfigure());
     } else {
         if (live_) live_->on_servers(servers);
         patience_.cancel();
@@ -158,11 +158,11 @@ Status ClusterRun::on_server(ServerId server, Message&& message) {
     const auto found = frames_.find(report->frame);
     if (found == frames_.end()) return fail("a report for frame {}, which is not open", report->frame);
     const auto& servers = found->second.servers;
-    const auto place = std::lower_bound(servers.begin(), servers.end(), server);
-    if (place == servers.end() || *place != server)
+    const auto at = std::lower_bound(servers.begin(), servers.end(), server);
+    if (at == servers.end() || *at != server)
         return fail("a report for frame {}, in which it takes no part", report->frame);
     SWATH_TRY_VOID(costs_->on_report(report->frame, server, report->visible));
-    return on_report(1 + static_cast<std::size_t>(place - servers.begin()), *report,
+    return on_report(1 + static_cast<std::size_t>(at - servers.begin()), *report,
                      machines_->clock_offset(server), {});
 }
 
@@ -177,7 +177,7 @@ Status ClusterRun::on_display(Message&& message, const Buffer& body) {
     return fail("{} is not expected from a display", name(message));
 }
 
-Status ClusterRun::run(const Director::Actions& actions) {
+Status ClusterRun::perform(const Director::Actions& actions) {
     for (const DirectorAction& action : actions) {
         switch (action.kind) {
             case DirectorAction::Kind::kIssue:
@@ -277,7 +277,7 @@ Status ClusterRun::issue(FrameNumber number) {
     timer.end(Phase::kPartition);
     timeline.machines[0].spans = std::move(spans);
     director_.on_issued(number, working);
-    return live_ ? run(director_.on_wanted(live_->wants_frame())) : Status{};
+    return live_ ? perform(director_.on_wanted(live_->wants_frame())) : Status{};
 }
 
 Status ClusterRun::on_report(std::size_t at, const Report& report, Nanoseconds clock_offset,
@@ -310,7 +310,7 @@ Status ClusterRun::on_report(std::size_t at, const Report& report, Nanoseconds c
         machines_->on_over(servers);
         if (live_ && timelines_.size() > kLiveHistory) timelines_.pop_front();
     }
-    return run(actions);
+    return perform(actions);
 }
 
 // --- a live run
@@ -338,8 +338,8 @@ Status ClusterRun::on_wish(const Wish& wish, const Buffer& body) {
 
 Status ClusterRun::follow_wish() {
     if (!live_) return {};
-    if (live_->wanted_setup()) SWATH_TRY_VOID(run(director_.on_reconfigure()));
-    return run(director_.on_wanted(live_->wants_frame()));
+    if (live_->wanted_setup()) SWATH_TRY_VOID(perform(director_.on_reconfigure()));
+    return perform(director_.on_wanted(live_->wants_frame()));
 }
 
 void ClusterRun::tell_state() {
@@ -408,7 +408,7 @@ Status ClusterRun::end_change(const std::string& refused) {
 Status ClusterRun::go_on() {
     awaiting_servers_ = machines_->members().empty();
     if (awaiting_servers_) return {};
-    SWATH_TRY_VOID(run(director_.on_reconfigured()));
+    SWATH_TRY_VOID(perform(director_.on_reconfigured()));
     return follow_wish();
 }
 

@@ -88,7 +88,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     Status on_audience(const Audience& audience);
     Status on_wish(const Wish& wish, const Buffer& body);
     Status on_report(std::size_t machine, const Report& report, Nanoseconds clock_offset, const Buffer& body);
-    Status run(const Director::Actions& actions);
+    Status perform(const Director::Actions& actions);
     // Begins as much of the wish as is possible now.
     Status follow_wish();
     FrameOrder order_of(FrameNumber frame);

@@ -28,13 +28,13 @@ Result<std::vector<FrameTimeline>> render_single(
         View view = make_view(job.cameras[number], job.width, job.height);
         view.pose = job.pose.value_or(path_pose(number));
         if (job.to_light) view.to_light = *job.to_light;
-        const DrawList list = cull.cull(all, view, view.viewport());
+        const CullResult list = cull.cull(all, view, view.viewport());
         machine[Counter::kTriangles] = list.triangles;
         machine[Counter::kObjects] = list.objects;
         machine[Counter::kLeaves] = list.leaves;
         machine[Counter::kSplitLevel] = static_cast<std::uint64_t>(list.split_level.value_or(0));
         timer.end(Phase::kCull);
-        SWATH_TRY_VOID(renderer->draw(list.runs, view, view.viewport()));
+        SWATH_TRY_VOID(renderer->draw(list.ranges, view, view.viewport()));
         timer.end(Phase::kRender);
         pixels.reshape(view.viewport());
         SWATH_TRY_VOID(renderer->read(view.viewport(), pixels));

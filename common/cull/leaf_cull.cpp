@@ -6,9 +6,9 @@
 namespace swath {
 namespace {
 
-DrawList whole(const ObjectSet& scene, std::span<const ObjectId> group) {
-    DrawList list;
-    list.runs = whole_objects(scene.objects, group);
+CullResult whole(const ObjectSet& scene, std::span<const ObjectId> group) {
+    CullResult list;
+    list.ranges = whole_objects(scene.objects, group);
     list.objects = group.size();
     list.visible.reserve(group.size());
     for (const ObjectId id : group) {
@@ -42,9 +42,9 @@ void LeafCull::pose(float pose) {
     culler_->refit(boxes_);
 }
 
-DrawList LeafCull::cull(std::span<const ObjectId> group, const View& view, const Rect& rect) {
+CullResult LeafCull::cull(std::span<const ObjectId> group, const View& view, const Rect& rect) {
     if (!group.empty()) CHECK(group.back() < scene_.objects.size());
-    DrawList list;
+    CullResult list;
     if (rect.empty() || group.empty()) {
         list.visible.resize(group.size());
         return list;
@@ -64,10 +64,10 @@ DrawList LeafCull::cull(std::span<const ObjectId> group, const View& view, const
         for (; at < leaves.size() && leaves[at] < end; ++at) {
             const Leaf& leaf = scene_.leaves[leaves[at]];
             if (visible > 0 &&
-                list.runs.back().first_triangle + list.runs.back().triangle_count == leaf.first_triangle)
-                list.runs.back().triangle_count += leaf.triangle_count;
+                list.ranges.back().first_triangle + list.ranges.back().triangle_count == leaf.first_triangle)
+                list.ranges.back().triangle_count += leaf.triangle_count;
             else
-                list.runs.push_back({id, leaf.first_triangle, leaf.triangle_count});
+                list.ranges.push_back({id, leaf.first_triangle, leaf.triangle_count});
             visible += leaf.triangle_count;
             ++list.leaves;
         }

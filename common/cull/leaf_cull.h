@@ -7,20 +7,20 @@
 
 #include "common/cull/culler.h"
 #include "common/geometry/camera.h"
-#include "common/scene/draw_run.h"
 #include "common/scene/objects.h"
+#include "common/scene/triangle_range.h"
 
 namespace swath {
 
 // The part of a group that is to be drawn, and its counts.
-struct DrawList {
-    std::vector<DrawRun> runs;           // ascending, and as few as possible
-    std::vector<std::uint32_t> visible;  // for each object of the group, the triangles in its runs
-    std::uint64_t objects = 0;           // objects with a run
+struct CullResult {
+    std::vector<TriangleRange> ranges;   // ascending, and as few as possible
+    std::vector<std::uint32_t> visible;  // for each object of the group, the triangles in its ranges
+    std::uint64_t objects = 0;           // objects with a range
     std::uint64_t leaves = 0;
     std::uint64_t triangles = 0;
     std::optional<int> split_level;  // as Culler::split_level()
-    bool operator==(const DrawList&) const = default;
+    bool operator==(const CullResult&) const = default;
 };
 
 // The boxes of a model's leaves at pose 0.
@@ -36,7 +36,7 @@ class LeafCull {
     // of `rect`: all but those whose boxes at the view's pose are outside of make_frustum(view, rect, bounds
     // of the scene at that pose). Nothing if `rect` is empty. It culls the whole model, whatever the group,
     // which takes microseconds. If a moving model has a new pose, it first moves the boxes: O(leaves).
-    DrawList cull(std::span<const ObjectId> group, const View& view, const Rect& rect);
+    CullResult cull(std::span<const ObjectId> group, const View& view, const Rect& rect);
 
   private:
     void pose(float pose);

@@ -66,15 +66,16 @@ Status CastScene::build_all(const SahSettings& settings) {
     return {};
 }
 
-Status CastScene::build(std::span<const DrawRun> runs, const SahSettings& settings) {
+Status CastScene::build(std::span<const TriangleRange> ranges, const SahSettings& settings) {
     run_indices_.clear();
     run_triangles_.clear();
-    for (const DrawRun& run : runs) {
-        const auto first = scene_.mesh.indices.begin() + 3 * static_cast<std::ptrdiff_t>(run.first_triangle);
+    for (const TriangleRange& range : ranges) {
+        const auto first =
+            scene_.mesh.indices.begin() + 3 * static_cast<std::ptrdiff_t>(range.first_triangle);
         run_indices_.insert(run_indices_.end(), first,
-                            first + 3 * static_cast<std::ptrdiff_t>(run.triangle_count));
-        for (std::uint32_t t = 0; t < run.triangle_count; ++t)
-            run_triangles_.push_back(run.first_triangle + t);
+                            first + 3 * static_cast<std::ptrdiff_t>(range.triangle_count));
+        for (std::uint32_t t = 0; t < range.triangle_count; ++t)
+            run_triangles_.push_back(range.first_triangle + t);
     }
     auto tree = builder_.build({reinterpret_cast<const std::byte*>(positions_.data()), sizeof(glm::vec3),
                                 positions_.size(), run_indices_},
@@ -86,14 +87,15 @@ Status CastScene::build(std::span<const DrawRun> runs, const SahSettings& settin
     return {};
 }
 
-void CastScene::want(std::span<const DrawRun> runs) {
+void CastScene::want(std::span<const TriangleRange> ranges) {
     std::size_t count = 0;
-    for (const DrawRun& run : runs) count += run.triangle_count;
+    for (const TriangleRange& range : ranges) count += range.triangle_count;
     want_all_ = count == scene_.mesh.triangle_count();
     if (want_all_) return;
     wanted_triangles_.assign((scene_.mesh.triangle_count() + 31) / 32, 0);
-    for (const DrawRun& run : runs)
-        set_bits(wanted_triangles_, run.first_triangle, std::size_t{run.first_triangle} + run.triangle_count);
+    for (const TriangleRange& range : ranges)
+        set_bits(wanted_triangles_, range.first_triangle,
+                 std::size_t{range.first_triangle} + range.triangle_count);
     // Leaves come first, by words, which threads do not share.
     wanted_nodes_.resize((tree_.nodes.size() + 31) / 32);
     const std::size_t parts = parts_for(wanted_nodes_.size(), kLeastWords, team_);

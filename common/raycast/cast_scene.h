@@ -7,8 +7,8 @@
 #include "common/base/thread_team.h"
 #include "common/octree/sah/sah_builder.h"
 #include "common/raycast/packet_kernel.h"
-#include "common/scene/draw_run.h"
 #include "common/scene/objects.h"
+#include "common/scene/triangle_range.h"
 
 namespace swath {
 
@@ -28,11 +28,11 @@ class CastScene {
 
     // Builds a tree over all triangles.
     Status build_all(const SahSettings& settings);
-    // Builds a tree over the triangles of `runs` only, of which there must be one.
-    Status build(std::span<const DrawRun> runs, const SahSettings& settings);
+    // Builds a tree over the triangles of `ranges` only, of which there must be one.
+    Status build(std::span<const TriangleRange> ranges, const SahSettings& settings);
 
-    // Limits what rays find in wanted() to the triangles of `runs`, which the tree must have.
-    void want(std::span<const DrawRun> runs);
+    // Limits what rays find in wanted() to the triangles of `ranges`, which the tree must have.
+    void want(std::span<const TriangleRange> ranges);
     KernelTree wanted() const;
     // Rays find all of the tree's triangles in this.
     KernelTree all() const;

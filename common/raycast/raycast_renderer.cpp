@@ -38,16 +38,16 @@ class RaycastRenderer final : public Renderer {
 
     Status build() { return setup_.flags.dynamic ? Status{} : cast_.build_all(kDefaultSah); }
 
-    Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override {
+    Status draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) override {
         CHECK(view.viewport().contains(rect) == true);
         const auto rays = Pinhole::of(view, cast_.scale());
         if (!rays) return tl::unexpected(rays.error());
         pixels_.reshape(rect);
-        if (runs.empty()) {
+        if (ranges.empty()) {
             pixels_.clear(rect);
             return {};
         }
-        if (const auto status = prepare(runs, view.pose); !status) return status;
+        if (const auto status = prepare(ranges, view.pose); !status) return status;
         const int columns = (rect.width() + kBlock - 1) / kBlock;
         const int blocks = columns * ((rect.height() + kBlock - 1) / kBlock);
         std::atomic<int> next{0};
@@ -74,15 +74,16 @@ class RaycastRenderer final : public Renderer {
     }
 
   private:
-    Status prepare(std::span<const DrawRun> runs, float pose) {
-        for (const DrawRun& run : runs) {
-            CHECK(run.object < scene_.objects.size());
-            const Object& object = scene_.objects[run.object];
-            CHECK(run.first_triangle >= object.first_triangle);
-            CHECK(run.first_triangle + run.triangle_count <= object.first_triangle + object.triangle_count);
+    Status prepare(std::span<const TriangleRange> ranges, float pose) {
+        for (const TriangleRange& range : ranges) {
+            CHECK(range.object < scene_.objects.size());
+            const Object& object = scene_.objects[range.object];
+            CHECK(range.first_triangle >= object.first_triangle);
+            CHECK(range.first_triangle + range.triangle_count <=
+                  object.first_triangle + object.triangle_count);
         }
         cast_.pose(pose);
-        if (setup_.flags.dynamic && !setup_.flags.shadows) return cast_.build(runs, kFastSah);
+        if (setup_.flags.dynamic && !setup_.flags.shadows) return cast_.build(ranges, kFastSah);
         // Triangles that are not drawn cast shadows, too, so the tree is over all.
         if (setup_.flags.dynamic || tree_pose_ != pose) {
             tree_pose_.reset();
@@ -90,7 +91,7 @@ class RaycastRenderer final : public Renderer {
                 return status;
             tree_pose_ = pose;
         }
-        cast_.want(runs);
+        cast_.want(ranges);
         return {};
     }
 

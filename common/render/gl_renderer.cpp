@@ -177,7 +177,7 @@ Status GlRenderer::resize(int width, int height) {
     return check("making the framebuffer");
 }
 
-Status GlRenderer::draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) {
+Status GlRenderer::draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) {
     drawn_ = {};
     if (view.width != width_ || view.height != height_) SWATH_TRY_VOID(resize(view.width, view.height));
     CHECK(view.viewport().contains(rect) == true);
@@ -188,10 +188,10 @@ Status GlRenderer::draw(std::span<const DrawRun> runs, const View& view, const R
     gl_.UniformMatrix4fv(clip_from_model_, 1, GL_FALSE, &view.clip_from_model[0][0]);
     gl_.Uniform3f(to_light_, view.to_light.x, view.to_light.y, view.to_light.z);
     if (scene_.moves()) gl_.Uniform1f(pose_, view.pose);
-    for (std::size_t begin = 0; begin < runs.size();) {
+    for (std::size_t begin = 0; begin < ranges.size();) {
         std::size_t end = begin + 1;
-        while (end < runs.size() && runs[end].object == runs[begin].object) ++end;
-        draw_object(runs.subspan(begin, end - begin));
+        while (end < ranges.size() && ranges[end].object == ranges[begin].object) ++end;
+        draw_object(ranges.subspan(begin, end - begin));
         begin = end;
     }
     gl_.Finish();
@@ -200,25 +200,25 @@ Status GlRenderer::draw(std::span<const DrawRun> runs, const View& view, const R
 }
 
 // Draws ranges of one object, which share its id, in one call.
-void GlRenderer::draw_object(std::span<const DrawRun> runs) {
-    const ObjectId id = runs.front().object;
+void GlRenderer::draw_object(std::span<const TriangleRange> ranges) {
+    const ObjectId id = ranges.front().object;
     CHECK(id < scene_.objects.size());
     const Object& object = scene_.objects[id];
     counts_.clear();
     positions_.clear();
-    for (const DrawRun& run : runs) {
-        CHECK(run.first_triangle >= object.first_triangle);
-        CHECK(run.first_triangle + run.triangle_count <= object.first_triangle + object.triangle_count);
-        counts_.push_back(static_cast<GLsizei>(3 * run.triangle_count));
+    for (const TriangleRange& range : ranges) {
+        CHECK(range.first_triangle >= object.first_triangle);
+        CHECK(range.first_triangle + range.triangle_count <= object.first_triangle + object.triangle_count);
+        counts_.push_back(static_cast<GLsizei>(3 * range.triangle_count));
         positions_.push_back(
-            reinterpret_cast<const void*>(std::size_t{3} * sizeof(std::uint32_t) * run.first_triangle));
+            reinterpret_cast<const void*>(std::size_t{3} * sizeof(std::uint32_t) * range.first_triangle));
     }
     gl_.Uniform1ui(object_, id);
-    if (runs.size() == 1)
+    if (ranges.size() == 1)
         gl_.DrawElements(GL_TRIANGLES, counts_[0], GL_UNSIGNED_INT, positions_[0]);
     else
         gl_.MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, positions_.data(),
-                              static_cast<GLsizei>(runs.size()));
+                              static_cast<GLsizei>(ranges.size()));
 }
 
 Status GlRenderer::read(const Rect& rect, PixelFrame& frame) {

@@ -18,7 +18,7 @@ class GlRenderer final : public Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> make(std::unique_ptr<GlContext> context, const ObjectSet& scene);
 
-    Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override;
+    Status draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) override;
     Status read(const Rect& rect, PixelFrame& frame) override;
     std::string description() const override;
 
@@ -27,7 +27,7 @@ class GlRenderer final : public Renderer {
     Status make_program();
     Status upload();
     Status resize(int width, int height);
-    void draw_object(std::span<const DrawRun> runs);
+    void draw_object(std::span<const TriangleRange> ranges);
     Status check(const char* what) const;
 
     std::unique_ptr<GlContext> context_;  // GL objects end with it

@@ -7,8 +7,8 @@
 #include "common/geometry/camera.h"
 #include "common/image/pixel_frame.h"
 #include "common/render/draw_settings.h"
-#include "common/scene/draw_run.h"
 #include "common/scene/objects.h"
+#include "common/scene/triangle_range.h"
 
 namespace swath {
 
@@ -29,10 +29,10 @@ class Renderer {
   public:
     virtual ~Renderer() = default;
 
-    // Draws `runs` (ascending triangles, each run in its object) with the view's full viewport, limited to
+    // Draws `ranges` (ascending triangles, each range in its object) with the view's full viewport, limited to
     // `rect`, which must lie in it. Blocks until all is drawn. The nearer fragment wins, of equal depths the
     // smaller id. Errors name the limit or what the device lacks.
-    virtual Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) = 0;
+    virtual Status draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) = 0;
 
     // Writes colour, depth and id of `rect` into `frame`. CHECKs that both the last draw's rectangle and the
     // frame contain it.

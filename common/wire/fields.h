@@ -169,7 +169,7 @@ void fields(auto& io, Of<RenderFrame> auto& m, pb::RenderFrame& p) {
     exchange_fields(io, m.outgoing, PART(outgoing));
     io.check([&] { return check_inside(m.outgoing, m.content, "outgoing", "content"); });
     exchange_fields(io, m.incoming, PART(incoming));
-    // What comes is merged where the server has drawn or owns pixels: it has memory for no others.
+    // A server composites only where it has drawn or owns pixels: it has memory for no others.
     io.check([&] {
         Rect cover = m.content;
         for (const Rect& r : m.final_region) cover = bounding(cover, r);

@@ -6,7 +6,7 @@ Result<Assembly::Actions> Assembly::on_task(FrameNumber frame, const std::vector
     SWATH_TRY_VOID(gather_.open(frame, servers));
     Actions actions;
     for (const ServerId server : gather_.ready(frame))
-        actions.push_back({AssemblyAction::Kind::kMerge, frame, server});
+        actions.push_back({AssemblyAction::Kind::kAssemble, frame, server});
     finish_if_complete(frame, actions);
     return actions;
 }
@@ -15,7 +15,7 @@ Result<Assembly::Actions> Assembly::on_tile(FrameNumber frame, ServerId from) {
     SWATH_TRY(const auto now, gather_.arrive(frame, from));
     Actions actions;
     if (!now) return actions;
-    actions.push_back({AssemblyAction::Kind::kMerge, frame, from});
+    actions.push_back({AssemblyAction::Kind::kAssemble, frame, from});
     finish_if_complete(frame, actions);
     return actions;
 }

@@ -10,7 +10,7 @@ namespace swath {
 // An order from Assembly.
 struct AssemblyAction {
     enum class Kind {
-        kMerge,     // write the tile from `server` into the frame's picture
+        kAssemble,  // write the tile from `server` into the frame's picture
         kComplete,  // the picture is complete
     };
     Kind kind{};

@@ -127,7 +127,7 @@ Status DisplaySession::on_assemble(const AssembleFrame& task) {
     fill(*frame.picture, task.width, task.height, task.background);
     timer.end(Phase::kAssemble);
 
-    return run(actions);
+    return perform(actions);
 }
 
 Status DisplaySession::from_server(ServerId from, const Message& message, Buffer&& body) {
@@ -135,20 +135,20 @@ Status DisplaySession::from_server(ServerId from, const Message& message, Buffer
     if (pixels == nullptr) return fail("{} is not expected from a server", name(message));
     SWATH_TRY(const auto actions, assembly_->on_tile(pixels->frame, from));
     Piece piece{pixels->sizes, std::move(body)};
-    if (!actions.empty()) return run(actions, &piece);
+    if (!actions.empty()) return perform(actions, &piece);
     early_.keep(pixels->frame, from, std::move(piece));
     return {};
 }
 
 // `arrived` is the piece that the actions come from, if they do; the others have been kept.
-Status DisplaySession::run(const Assembly::Actions& actions, const Piece* arrived) {
+Status DisplaySession::perform(const Assembly::Actions& actions, const Piece* arrived) {
     for (const AssemblyAction& action : actions) {
         switch (action.kind) {
-            case AssemblyAction::Kind::kMerge: {
+            case AssemblyAction::Kind::kAssemble: {
                 OpenFrame& frame = frames_.at(action.frame);
-                SWATH_TRY_VOID(arrived != nullptr
-                                   ? merge(frame, action.server, *arrived)
-                                   : merge(frame, action.server, early_.take(action.frame, action.server)));
+                SWATH_TRY_VOID(arrived != nullptr ? assemble(frame, action.server, *arrived)
+                                                  : assemble(frame, action.server,
+                                                             early_.take(action.frame, action.server)));
                 break;
             }
             case AssemblyAction::Kind::kComplete:
@@ -159,7 +159,7 @@ Status DisplaySession::run(const Assembly::Actions& actions, const Piece* arrive
     return {};
 }
 
-Status DisplaySession::merge(OpenFrame& frame, ServerId from, const Piece& tile) {
+Status DisplaySession::assemble(OpenFrame& frame, ServerId from, const Piece& tile) {
     PhaseTimer timer(clock_, frame.report.spans);
     const Region* region = nullptr;
     for (const Exchange& e : frame.task.tiles)

@@ -47,8 +47,8 @@ class DisplaySession final : public Session, public std::enable_shared_from_this
     void pass_wish();
     Status on_assemble(const AssembleFrame& task);
     Status from_server(ServerId from, const Message& message, Buffer&& body);
-    Status run(const Assembly::Actions& actions, const Piece* arrived = nullptr);
-    Status merge(OpenFrame& frame, ServerId from, const Piece& tile);
+    Status perform(const Assembly::Actions& actions, const Piece* arrived = nullptr);
+    Status assemble(OpenFrame& frame, ServerId from, const Piece& tile);
     void complete(FrameNumber number);
     void tell(const Message& message, Buffer body = {});
     void give_up(const Error& error);

@@ -128,7 +128,7 @@ Result<std::unique_ptr<ViewerHost>> ViewerHost::make(const WebServer::Options& o
     const auto event = [raw = host.get()](auto on) {
         return [raw, on](ViewerId viewer) {
             const std::lock_guard lock(raw->mutex_);
-            raw->run((raw->viewers_.*on)(viewer, raw->clock_.now()));
+            raw->perform((raw->viewers_.*on)(viewer, raw->clock_.now()));
         };
     };
     handlers.on_join = event(&Viewers::on_join);
@@ -170,14 +170,14 @@ std::uint32_t ViewerHost::begin(bool live, asio::any_io_executor executor, Callb
     const std::lock_guard lock(mutex_);
     messenger_ = std::make_shared<Messenger>(std::move(executor), std::move(callbacks));
     told_viewers_ = viewers_.count();
-    run(viewers_.on_session(live, clock_.now()));
+    perform(viewers_.on_session(live, clock_.now()));
     return told_viewers_;
 }
 
 void ViewerHost::end() {
     const std::lock_guard lock(mutex_);
     messenger_.reset();
-    run(viewers_.on_session_end(clock_.now()));
+    perform(viewers_.on_session_end(clock_.now()));
 }
 
 void ViewerHost::announce(FrameNumber frame) {
@@ -187,7 +187,7 @@ void ViewerHost::announce(FrameNumber frame) {
 
 void ViewerHost::picture(FrameNumber frame, std::uint32_t stream, std::shared_ptr<const Picture> picture) {
     const std::lock_guard lock(mutex_);
-    run(viewers_.on_picture(frame, stream, std::move(picture), clock_.now()));
+    perform(viewers_.on_picture(frame, stream, std::move(picture), clock_.now()));
 }
 
 Status ViewerHost::note(NoteTopic topic, FrameNumber frame, Buffer text) {
@@ -199,7 +199,7 @@ Status ViewerHost::note(NoteTopic topic, FrameNumber frame, Buffer text) {
         return fail("Note: not a JSON object");
     auto bytes = std::make_shared<const Buffer>(std::move(text));
     const std::lock_guard lock(mutex_);
-    run(viewers_.on_note(topic, frame, std::move(bytes), clock_.now()));
+    perform(viewers_.on_note(topic, frame, std::move(bytes), clock_.now()));
     return {};
 }
 
@@ -209,16 +209,16 @@ Status ViewerHost::on_text(ViewerId viewer, std::string_view text) {
     if (const auto* shown = std::get_if<PictureKey>(&parsed)) {
         PictureKey key = *shown;
         key.run = viewers_.run();
-        run(viewers_.on_shown(viewer, key, clock_.now()));
+        perform(viewers_.on_shown(viewer, key, clock_.now()));
     } else if (std::holds_alternative<Lead>(parsed)) {
-        run(viewers_.on_lead(viewer, clock_.now()));
+        perform(viewers_.on_lead(viewer, clock_.now()));
     } else if (viewers_.steers(viewer) && messenger_) {
         messenger_->wish(viewer, text);
     }
     return {};
 }
 
-void ViewerHost::run(Viewers::Actions&& actions) {
+void ViewerHost::perform(Viewers::Actions&& actions) {
     for (ViewerAction& action : actions) {
         if (auto* task = std::get_if<EncodePicture>(&action)) {
             encode_on_its_thread(std::move(*task));
@@ -254,11 +254,11 @@ void ViewerHost::encode_on_its_thread(EncodePicture&& task) {
             task.picture.reset();
             const std::lock_guard lock(mutex_);
             ++encoded_;
-            run(viewers_.on_encoded(task.key, message, clock_.now()));
+            perform(viewers_.on_encoded(task.key, message, clock_.now()));
         } catch (const std::exception& failure) {  // out of memory
             log_warning("a picture for viewers: {}; passed over", failure.what());
             const std::lock_guard lock(mutex_);
-            run(viewers_.on_encoded(task.key, nullptr, clock_.now()));
+            perform(viewers_.on_encoded(task.key, nullptr, clock_.now()));
         }
     });
 }
@@ -276,7 +276,7 @@ void ViewerHost::wait_for_deadline() {
         return;
     }
     timer_armed_ = false;
-    run(viewers_.on_tick(now));
+    perform(viewers_.on_tick(now));
 }
 
 }  // namespace swath

@@ -66,7 +66,7 @@ class ViewerHost {
     explicit ViewerHost(const Clock& clock);
     Status on_text(ViewerId viewer, std::string_view text);
     // Carries out Viewers' actions and sets the timer. With mutex_ held.
-    void run(Viewers::Actions&& actions);
+    void perform(Viewers::Actions&& actions);
     void send(ViewerId to, SharedBytes bytes, bool text);
     void encode_on_its_thread(EncodePicture&& task);
     void wait_for_deadline();

@@ -47,12 +47,12 @@ RendererSetup DrawThread::setup_of(const Drawing& drawing) const {
     return {drawing.renderer_of(server_), drawing.flags, threads_};
 }
 
-Loaded DrawThread::loaded() const {
+SceneInfo DrawThread::loaded() const {
     return {scene_.objects.size(), scene_.mesh.triangle_count(), renderer_->description(), drawing_, {}};
 }
 
 void DrawThread::load(Mesh mesh, ServerId server, const Drawing& drawing,
-                      std::function<void(Result<Loaded>)> done) {
+                      std::function<void(Result<SceneInfo>)> done) {
     thread_.post(
         [this, mesh = std::make_shared<Mesh>(std::move(mesh)), server, drawing, done = std::move(done)] {
             try {
@@ -67,14 +67,14 @@ void DrawThread::load(Mesh mesh, ServerId server, const Drawing& drawing,
         });
 }
 
-void DrawThread::reconfigure(const Drawing& drawing, std::function<void(Result<Loaded>)> done) {
+void DrawThread::reconfigure(const Drawing& drawing, std::function<void(Result<SceneInfo>)> done) {
     thread_.post([this, drawing, done = std::move(done)] {
         try {
             const Drawing before = drawing_;
             const auto status = configure(drawing);
             if (status) return done(loaded());
             if (const auto back = configure(before); !back) return done(tl::unexpected(back.error()));
-            Loaded as_before = loaded();
+            SceneInfo as_before = loaded();
             as_before.refused = status.error().message;
             done(std::move(as_before));
         } catch (const std::bad_alloc&) {
@@ -83,25 +83,25 @@ void DrawThread::reconfigure(const Drawing& drawing, std::function<void(Result<L
     });
 }
 
-void DrawThread::draw(DrawJob job, std::function<void(Drawn)> done) {
+void DrawThread::draw(DrawJob job, std::function<void(DrawResult)> done) {
     thread_.post([this, job = std::make_shared<DrawJob>(std::move(job)), done = std::move(done)] {
         try {
             done(draw_now(std::move(*job)));
         } catch (const std::bad_alloc&) {
-            Drawn drawn;
+            DrawResult drawn;
             drawn.status = fail("not enough memory for a frame");
             done(std::move(drawn));
         }
     });
 }
 
-Drawn DrawThread::draw_now(DrawJob job) {
-    Drawn out;
+DrawResult DrawThread::draw_now(DrawJob job) {
+    DrawResult out;
     PhaseTimer timer(clock_, out.spans);
     out.list = cull_->cull(job.group, job.view, job.content);
     timer.end(Phase::kCull);
 
-    if (!job.content.empty()) out.status = renderer_->draw(out.list.runs, job.view, job.content);
+    if (!job.content.empty()) out.status = renderer_->draw(out.list.ranges, job.view, job.content);
     timer.end(Phase::kRender);
 
     // The frame covers the content and the final region; the part that only comes from others starts as

@@ -25,13 +25,13 @@ struct DrawJob {
     Region final_region;
     PixelFrame pixels;  // a used one, for its memory
 };
-struct Drawn {
+struct DrawResult {
     PixelFrame pixels;
     std::vector<Span> spans;  // cull, render, pixel read
-    DrawList list;
+    CullResult list;
     Status status;
 };
-struct Loaded {
+struct SceneInfo {
     std::size_t objects = 0;
     std::size_t triangles = 0;
     std::string renderer;
@@ -53,18 +53,19 @@ class DrawThread {
     ~DrawThread();
 
     // Runs something slow that needs no scene, e.g. reading a model.
-    void run(std::function<void()> task) { thread_.post(std::move(task)); }
+    void post(std::function<void()> task) { thread_.post(std::move(task)); }
     // Cuts the mesh into objects and makes what culls and draws them, for this server of the run.
-    void load(Mesh mesh, ServerId server, const Drawing& drawing, std::function<void(Result<Loaded>)> done);
+    void load(Mesh mesh, ServerId server, const Drawing& drawing,
+              std::function<void(Result<SceneInfo>)> done);
     // Does the same otherwise; where that fails, goes back to what was. Fails only when there is no way back.
-    void reconfigure(const Drawing& drawing, std::function<void(Result<Loaded>)> done);
-    void draw(DrawJob job, std::function<void(Drawn)> done);
+    void reconfigure(const Drawing& drawing, std::function<void(Result<SceneInfo>)> done);
+    void draw(DrawJob job, std::function<void(DrawResult)> done);
 
   private:
     Status configure(const Drawing& drawing);
     RendererSetup setup_of(const Drawing& drawing) const;
-    Loaded loaded() const;
-    Drawn draw_now(DrawJob job);
+    SceneInfo loaded() const;
+    DrawResult draw_now(DrawJob job);
 
     RendererFactory factory_;
     const Clock& clock_;

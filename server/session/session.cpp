@@ -98,7 +98,7 @@ Status ServerSession::on_setup(const ServerSetup& setup) {
     if (setup.blob_bytes > options_.max_model_bytes)
         return fail("model {}: {} bytes, this server's limit is {}", setup.model, setup.blob_bytes,
                     options_.max_model_bytes);
-    draw_thread_->run([self = shared_from_this()] {
+    draw_thread_->post([self = shared_from_this()] {
         auto mesh =
             std::make_shared<std::optional<Mesh>>(self->store_.find(self->setup_.model, self->setup_.digest));
         asio::post(self->io_, [self, mesh] {
@@ -134,7 +134,7 @@ Status ServerSession::on_model_part(const ModelPart& part, const Buffer& body) {
         need_model_part();
         return {};
     }
-    draw_thread_->run([self = shared_from_this()] {
+    draw_thread_->post([self = shared_from_this()] {
         auto mesh =
             std::make_shared<Result<Mesh>>(self->store_.accept(self->blob_.bytes(), self->setup_.digest));
         asio::post(self->io_, [self, mesh] {
@@ -153,13 +153,13 @@ void ServerSession::load(Mesh mesh) {
     draw_thread_->load(std::move(mesh), setup_.server, setup_.drawing, when_loaded());
 }
 
-std::function<void(Result<Loaded>)> ServerSession::when_loaded() {
-    return [self = shared_from_this()](const Result<Loaded>& result) {
+std::function<void(Result<SceneInfo>)> ServerSession::when_loaded() {
+    return [self = shared_from_this()](const Result<SceneInfo>& result) {
         asio::post(self->io_, [self, result] { self->resume([&] { return self->on_loaded(result); }); });
     };
 }
 
-Status ServerSession::on_loaded(const Result<Loaded>& loaded) {
+Status ServerSession::on_loaded(const Result<SceneInfo>& loaded) {
     if (!loaded) return tl::unexpected(loaded.error());
     objects_ = loaded->objects;
     ready_ = true;
@@ -272,7 +272,7 @@ Status ServerSession::on_render_frame(RenderFrame&& task) {
     frame.report.spans.push_back({Phase::kWait, now, now, Nanoseconds(0)});  // until drawing begins
     frame.task = std::move(task);
 
-    return run(actions);
+    return perform(actions);
 }
 
 Status ServerSession::from_server(ServerId from, Message&& message, Buffer&& body) {
@@ -280,13 +280,13 @@ Status ServerSession::from_server(ServerId from, Message&& message, Buffer&& bod
     if (pixels == nullptr) return fail("{} is not expected from a server", name(message));
     SWATH_TRY(const auto actions, swap_->on_swath(pixels->frame, from));
     Piece piece{pixels->sizes, std::move(body)};
-    if (!actions.empty()) return run(actions, &piece);
+    if (!actions.empty()) return perform(actions, &piece);
     early_.keep(pixels->frame, from, std::move(piece));
     return {};
 }
 
 // `arrived` is the piece that the actions come from, if they do; the others have been kept.
-Status ServerSession::run(const FrameSwap::Actions& actions, const Piece* arrived) {
+Status ServerSession::perform(const FrameSwap::Actions& actions, const Piece* arrived) {
     for (const SwapAction& action : actions) {
         OpenFrame& frame = frames_.at(action.frame);
         Status status;
@@ -321,14 +321,15 @@ void ServerSession::draw(OpenFrame& frame) {
         job.pixels = std::move(pool_.back());
         pool_.pop_back();
     }
-    draw_thread_->draw(std::move(job), [self = shared_from_this(), number = frame.task.frame](Drawn result) {
-        asio::post(self->io_, [self, number, drawn = std::make_shared<Drawn>(std::move(result))] {
-            self->resume([&] { return self->on_drawn(number, *drawn); });
+    draw_thread_->draw(
+        std::move(job), [self = shared_from_this(), number = frame.task.frame](DrawResult result) {
+            asio::post(self->io_, [self, number, drawn = std::make_shared<DrawResult>(std::move(result))] {
+                self->resume([&] { return self->on_drawn(number, *drawn); });
+            });
         });
-    });
 }
 
-Status ServerSession::on_drawn(FrameNumber number, Drawn& drawn) {
+Status ServerSession::on_drawn(FrameNumber number, DrawResult& drawn) {
     if (!drawn.status) return drawn.status;
     OpenFrame& frame = frames_.at(number);
     frame.pixels = std::move(drawn.pixels);
@@ -341,7 +342,7 @@ Status ServerSession::on_drawn(FrameNumber number, Drawn& drawn) {
     report[Counter::kSplitLevel] = static_cast<std::uint64_t>(drawn.list.split_level.value_or(0));
     if (setup_.drawing.cull != CullAlgorithm::kNone && drawn.list.visible.size() <= kMaxVisibleCounts)
         report.visible = std::move(drawn.list.visible);
-    return run(swap_->on_drawn(number));
+    return perform(swap_->on_drawn(number));
 }
 
 namespace {

@@ -46,10 +46,10 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     void need_model_part();
     Status on_model_part(const ModelPart& part, const Buffer& body);
     void load(Mesh mesh);
-    Status on_loaded(const Result<Loaded>& loaded);
+    Status on_loaded(const Result<SceneInfo>& loaded);
     Status on_reconfigure(const Reconfigure& reconfigure);
     // The callback of load() and reconfigure(), which comes back to this thread.
-    std::function<void(Result<Loaded>)> when_loaded();
+    std::function<void(Result<SceneInfo>)> when_loaded();
     Status on_connect(const Connect& connect);
     void connect(const std::string& address, Role role, ServerId id);
     Status on_peer_hello(Role role, ServerId id, const Hello& hello) const;
@@ -57,9 +57,9 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     Status on_render_frame(RenderFrame&& task);
     Status check(const RenderFrame& task) const;
     Status from_server(ServerId from, Message&& message, Buffer&& body);
-    Status run(const FrameSwap::Actions& actions, const Piece* arrived = nullptr);
+    Status perform(const FrameSwap::Actions& actions, const Piece* arrived = nullptr);
     void draw(OpenFrame& frame);
-    Status on_drawn(FrameNumber number, Drawn& drawn);
+    Status on_drawn(FrameNumber number, DrawResult& drawn);
     Status send_swath(OpenFrame& frame, ServerId to);
     Status composite(OpenFrame& frame, ServerId from, const Piece& piece);
     Status send_tile(OpenFrame& frame);

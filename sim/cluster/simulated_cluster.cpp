@@ -164,7 +164,7 @@ class Cluster {
     void follow(const Assembly::Actions& actions) {
         for (const AssemblyAction& action : actions) {
             const FrameNumber number = action.frame;
-            if (action.kind == AssemblyAction::Kind::kMerge) {
+            if (action.kind == AssemblyAction::Kind::kAssemble) {
                 const double time_s = frames_.at(number).work[index(action.server)].display_s;
                 display_.submit(nanoseconds(time_s), [this, number](Nanoseconds begin, Nanoseconds end) {
                     frames_.at(number).display.spans.push_back({Phase::kAssemble, begin, end, end - begin});

@@ -17,15 +17,15 @@ void SimulatedServer::on_task(FrameNumber number, const ServerWork& work) {
     frames_[number].work = &work;
     SwapTask task{number, {}, work.incoming, work.has_tile};
     for (const SwathWork& swath : work.outgoing) task.outgoing.push_back(swath.peer);
-    run(decided(swap_.on_task(task)));
+    perform(decided(swap_.on_task(task)));
 }
 
 void SimulatedServer::on_swath(FrameNumber number, ServerId from, double merge_s) {
     frames_[number].merge_s[from] = merge_s;
-    run(decided(swap_.on_swath(number, from)));
+    perform(decided(swap_.on_swath(number, from)));
 }
 
-void SimulatedServer::run(const FrameSwap::Actions& actions) {
+void SimulatedServer::perform(const FrameSwap::Actions& actions) {
     for (const SwapAction& action : actions) {
         const FrameNumber number = action.frame;
         Frame& frame = frames_.at(number);
@@ -63,7 +63,7 @@ void SimulatedServer::draw_next() {
     const FrameNumber number = to_draw_.front();
     to_draw_.pop_front();
     const ServerWork& work = *frames_.at(number).work;
-    const auto drawn = [this, number] { run(swap_.on_drawn(number)); };
+    const auto drawn = [this, number] { perform(swap_.on_drawn(number)); };
     if (on_card()) {
         work_on(draw_, number, Phase::kRender, work.render_s, drawn);
     } else {

@@ -50,7 +50,7 @@ class SimulatedServer {
         std::map<ServerId, double> merge_s;
         std::vector<Span> spans;
     };
-    void run(const FrameSwap::Actions& actions);
+    void perform(const FrameSwap::Actions& actions);
     void draw_next();
     void finish(FrameNumber frame);
     // Does a job for the frame, then `after`.

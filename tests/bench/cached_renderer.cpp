@@ -6,14 +6,14 @@
 
 namespace swath::bench {
 
-Status CachedRenderer::draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) {
+Status CachedRenderer::draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) {
     Drawn& drawn =
         drawn_[{reinterpret_cast<const char*>(&view.clip_from_model), sizeof view.clip_from_model}];
     last_ = &drawn;
-    if (drawn.pixels.rect() == rect && std::ranges::equal(drawn.runs, runs)) return {};
+    if (drawn.pixels.rect() == rect && std::ranges::equal(drawn.ranges, ranges)) return {};
     drawn.pixels.reshape({});
-    SWATH_TRY_VOID(renderer_->draw(runs, view, rect));
-    drawn.runs.assign(runs.begin(), runs.end());
+    SWATH_TRY_VOID(renderer_->draw(ranges, view, rect));
+    drawn.ranges.assign(ranges.begin(), ranges.end());
     drawn.pixels.reshape(rect);
     return renderer_->read(rect, drawn.pixels);
 }

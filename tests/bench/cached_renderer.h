@@ -9,19 +9,19 @@
 namespace swath::bench {
 
 // Draws a view once and then returns the same pixels: this leaves a server only swap, composite and gather.
-// Plans depend on the reports that have arrived, so a later plan may ask for other runs or another rectangle
+// Plans depend on the reports that have arrived, so a later plan may ask for other ranges or another rectangle
 // of the same view. The view is then drawn again.
 class CachedRenderer final : public Renderer {
   public:
     explicit CachedRenderer(std::unique_ptr<Renderer> renderer) : renderer_(std::move(renderer)) {}
 
-    Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override;
+    Status draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) override;
     Status read(const Rect& rect, PixelFrame& frame) override;
     std::string description() const override { return "cached " + renderer_->description(); }
 
   private:
     struct Drawn {
-        std::vector<DrawRun> runs;
+        std::vector<TriangleRange> ranges;
         PixelFrame pixels;  // none: it has to be drawn
     };
 

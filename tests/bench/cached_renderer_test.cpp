@@ -11,10 +11,10 @@ namespace {
 class CountingRenderer final : public Renderer {
   public:
     explicit CountingRenderer(std::uint32_t& draws) : draws_(draws) {}
-    Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override {
+    Status draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) override {
         if (view.to_light.x == 13) return fail("no light");
         ++draws_;
-        id_ = runs.front().object;
+        id_ = ranges.front().object;
         rect_ = rect;
         return {};
     }
@@ -40,7 +40,7 @@ class CachedRendererTest : public testing::Test {
   protected:
     // Which draw the pixels are from.
     std::uint32_t draw(const View& view, const Rect& rect, ObjectId object = 5) {
-        EXPECT_TRUE(renderer_.draw(std::vector{DrawRun{object, 0, 1}}, view, rect).has_value());
+        EXPECT_TRUE(renderer_.draw(std::vector{TriangleRange{object, 0, 1}}, view, rect).has_value());
         PixelFrame frame;
         frame.reshape({0, 0, 8, 8});
         EXPECT_TRUE(renderer_.read(rect, frame).has_value());
@@ -86,7 +86,7 @@ TEST_F(CachedRendererTest, ReadsNothingThatWasNotDrawn) {
     // A draw that failed leaves nothing of the one before.
     View dark = view(1);
     dark.to_light.x = 13;
-    EXPECT_FALSE(renderer_.draw(std::vector{DrawRun{5, 0, 1}}, dark, {0, 0, 5, 4}).has_value());
+    EXPECT_FALSE(renderer_.draw(std::vector{TriangleRange{5, 0, 1}}, dark, {0, 0, 5, 4}).has_value());
     EXPECT_THROW(static_cast<void>(renderer_.read({0, 0, 4, 4}, frame)), CheckFailed);
 }
 

@@ -39,9 +39,9 @@ Status draw(Renderer& renderer, LeafCull& cull, const Frame& frame, Cost& cost) 
     for (const Task& task : frame) {
         if (task.content.empty()) continue;
         const Nanoseconds begin = clock.thread_cpu();
-        const DrawList list = cull.cull(task.group, task.view, task.content);
+        const CullResult list = cull.cull(task.group, task.view, task.content);
         const Nanoseconds culled = clock.thread_cpu();
-        SWATH_TRY_VOID(renderer.draw(list.runs, task.view, task.content));
+        SWATH_TRY_VOID(renderer.draw(list.ranges, task.view, task.content));
         cost.render_ms += static_cast<double>((clock.thread_cpu() - culled).count()) * 1e-6;
         cost.cull_us += static_cast<double>((culled - begin).count()) * 1e-3;
         cost.triangles += static_cast<double>(list.triangles);

@@ -99,8 +99,8 @@ Status bench_swap(Figures& figures, const Effort& effort) {
         PixelFrame frame;
         for (const Transfer& t : transfers(plan)) {
             const ServerShare& share = plan.servers[index(t.from)];
-            const DrawList list = cull.cull(share.group, view, share.content);
-            SWATH_TRY_VOID(renderer->draw(list.runs, view, share.content));
+            const CullResult list = cull.cull(share.group, view, share.content);
+            SWATH_TRY_VOID(renderer->draw(list.ranges, view, share.content));
             frame.reshape(share.content);
             SWATH_TRY_VOID(renderer->read(share.content, frame));
             Buffer body;

@@ -10,7 +10,7 @@
 namespace swath {
 
 std::ostream& operator<<(std::ostream& out, const AssemblyAction& action) {
-    return out << (action.kind == AssemblyAction::Kind::kMerge ? "merge" : "complete") << " frame "
+    return out << (action.kind == AssemblyAction::Kind::kAssemble ? "assemble" : "complete") << " frame "
                << action.frame << " server " << index(action.server);
 }
 
@@ -19,8 +19,8 @@ namespace {
 using Actions = Assembly::Actions;
 using Kind = AssemblyAction::Kind;
 
-AssemblyAction merge(FrameNumber frame, std::size_t server) {
-    return {Kind::kMerge, frame, server_id(server)};
+AssemblyAction assemble(FrameNumber frame, std::size_t server) {
+    return {Kind::kAssemble, frame, server_id(server)};
 }
 AssemblyAction complete(FrameNumber frame) { return {Kind::kComplete, frame, {}}; }
 
@@ -52,17 +52,17 @@ class AssemblyTest : public testing::Test {
 
 TEST_F(AssemblyTest, MergesTilesAsTheyComeAndCompletesWithTheLast) {
     EXPECT_EQ(task(0, {0, 1, 4}), (Actions{}));
-    EXPECT_EQ(tile(0, 4), (Actions{merge(0, 4)}));
-    EXPECT_EQ(tile(0, 0), (Actions{merge(0, 0)}));
-    EXPECT_EQ(tile(0, 1), (Actions{merge(0, 1), complete(0)}));
+    EXPECT_EQ(tile(0, 4), (Actions{assemble(0, 4)}));
+    EXPECT_EQ(tile(0, 0), (Actions{assemble(0, 0)}));
+    EXPECT_EQ(tile(0, 1), (Actions{assemble(0, 1), complete(0)}));
 }
 
 TEST_F(AssemblyTest, MergesTilesThatCameBeforeTheTask) {
     EXPECT_EQ(tile(0, 1), (Actions{}));
     EXPECT_EQ(tile(1, 1), (Actions{}));
     EXPECT_EQ(tile(0, 0), (Actions{}));
-    EXPECT_EQ(task(0, {0, 1}), (Actions{merge(0, 0), merge(0, 1), complete(0)}));
-    EXPECT_EQ(task(1, {0, 1}), (Actions{merge(1, 1)}));
+    EXPECT_EQ(task(0, {0, 1}), (Actions{assemble(0, 0), assemble(0, 1), complete(0)}));
+    EXPECT_EQ(task(1, {0, 1}), (Actions{assemble(1, 1)}));
 }
 
 TEST_F(AssemblyTest, CompletesAnEmptyPictureAtOnce) { EXPECT_EQ(task(0, {}), (Actions{complete(0)})); }
@@ -70,19 +70,19 @@ TEST_F(AssemblyTest, CompletesAnEmptyPictureAtOnce) { EXPECT_EQ(task(0, {}), (Ac
 TEST_F(AssemblyTest, MayCompleteALaterFrameFirst) {
     task(0, {0, 1});
     task(1, {0});
-    EXPECT_EQ(tile(1, 0), (Actions{merge(1, 0), complete(1)}));
+    EXPECT_EQ(tile(1, 0), (Actions{assemble(1, 0), complete(1)}));
     EXPECT_EQ(task(2, {}), (Actions{complete(2)}));
-    EXPECT_EQ(tile(0, 1), (Actions{merge(0, 1)}));
-    EXPECT_EQ(tile(0, 0), (Actions{merge(0, 0), complete(0)}));
+    EXPECT_EQ(tile(0, 1), (Actions{assemble(0, 1)}));
+    EXPECT_EQ(tile(0, 0), (Actions{assemble(0, 0), complete(0)}));
 }
 
 TEST_F(AssemblyTest, RefusesTilesThatNobodyAwaits) {
     task(3, {0, 1});
-    EXPECT_EQ(tile(3, 0), (Actions{merge(3, 0)}));
+    EXPECT_EQ(tile(3, 0), (Actions{assemble(3, 0)}));
     EXPECT_EQ(refused(assembly_.on_tile(3, server_id(0))), "pixels for frame 3, which awaits none");
     EXPECT_EQ(refused(assembly_.on_tile(3, server_id(2))), "pixels for frame 3, which awaits none");
     EXPECT_EQ(refused(assembly_.on_tile(2, server_id(0))), "pixels for frame 2, which is over");
-    EXPECT_EQ(tile(3, 1), (Actions{merge(3, 1), complete(3)}));
+    EXPECT_EQ(tile(3, 1), (Actions{assemble(3, 1), complete(3)}));
     EXPECT_EQ(refused(assembly_.on_tile(3, server_id(1))), "pixels for frame 3, which is over");
     tile(4, 0);
     EXPECT_EQ(refused(assembly_.on_tile(4, server_id(0))), "pixels for frame 4 twice");
@@ -107,7 +107,7 @@ TEST(Assemblies, CompleteEveryFrameOnceWithEveryTileOnceHoweverEventsInterleave)
             for (std::size_t s = 0; s < servers; ++s)
                 if (random() % 2 == 0) frame.push_back(server_id(s));
         Assembly assembly(2);
-        std::map<FrameNumber, std::multiset<ServerId>> merged;
+        std::map<FrameNumber, std::multiset<ServerId>> assembled;
         std::set<FrameNumber> over;
         FrameNumber told = 0;                       // frames whose task the display has
         std::vector<FrameNumber> sent(servers, 0);  // frames that each server is done with
@@ -125,12 +125,12 @@ TEST(Assemblies, CompleteEveryFrameOnceWithEveryTileOnceHoweverEventsInterleave)
             ASSERT_TRUE(actions.has_value()) << actions.error().message;
             for (const AssemblyAction& a : *actions) {
                 ASSERT_EQ(over.count(a.frame), 0u);
-                if (a.kind == Kind::kMerge) {
-                    merged[a.frame].insert(a.server);
+                if (a.kind == Kind::kAssemble) {
+                    assembled[a.frame].insert(a.server);
                     continue;
                 }
                 over.insert(a.frame);
-                ASSERT_EQ(merged[a.frame],
+                ASSERT_EQ(assembled[a.frame],
                           std::multiset<ServerId>(wanted[a.frame].begin(), wanted[a.frame].end()));
             }
         }

@@ -151,7 +151,7 @@ class RandomCluster {
     };
     struct Seen {
         bool drawn = false;
-        std::multiset<ServerId> sent, merged;
+        std::multiset<ServerId> sent, composited;
         int tiles = 0;
     };
 
@@ -192,7 +192,7 @@ class RandomCluster {
                 seen.sent.insert(a.peer);
                 queues_[{server, index(a.peer)}].push_back({a.frame, false, {}});
             } else if (a.kind == Kind::kComposite) {
-                seen.merged.insert(a.peer);
+                seen.composited.insert(a.peer);
             } else if (a.kind == Kind::kSendTile) {
                 ++seen.tiles;
             } else {
@@ -205,7 +205,7 @@ class RandomCluster {
         const SwapTask& t = tasks_.at(frame)[server];
         const Seen& seen = seen_[server].at(frame);
         EXPECT_EQ(seen.sent, std::multiset<ServerId>(t.outgoing.begin(), t.outgoing.end()));
-        EXPECT_EQ(seen.merged, std::multiset<ServerId>(t.incoming.begin(), t.incoming.end()));
+        EXPECT_EQ(seen.composited, std::multiset<ServerId>(t.incoming.begin(), t.incoming.end()));
         EXPECT_EQ(seen.tiles, t.has_tile ? 1 : 0);
         EXPECT_TRUE(finished_.emplace(frame, server).second) << "finished twice";
         // For the client a frame is over when all have reported; frames end in order.

@@ -19,10 +19,10 @@ namespace swath::test {
 // object.
 class FakeRenderer final : public Renderer {
   public:
-    Status draw(std::span<const DrawRun> runs, const View& view, const Rect& rect) override {
+    Status draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) override {
         if (view.height == 13) return fail("13 rows bring bad luck");
         objects_.clear();
-        for (const DrawRun& run : runs) objects_.push_back(run.object);
+        for (const TriangleRange& range : ranges) objects_.push_back(range.object);
         rect_ = rect;
         return {};
     }

@@ -26,7 +26,7 @@ View view_of(const ObjectSet& scene, int width, int height) {
     return make_view(camera, width, height);
 }
 
-std::vector<DrawRun> all_of(const ObjectSet& scene) {
+std::vector<TriangleRange> all_of(const ObjectSet& scene) {
     std::vector<ObjectId> ids(scene.objects.size());
     for (ObjectId id = 0; id < ids.size(); ++id) ids[id] = id;
     return whole_objects(scene.objects, ids);
@@ -42,8 +42,9 @@ RendererKind gl_here() {
     return kind;
 }
 
-PixelFrame draw(Renderer& renderer, std::span<const DrawRun> runs, const View& view, const Rect& rect) {
-    const Status drawn = renderer.draw(runs, view, rect);
+PixelFrame draw(Renderer& renderer, std::span<const TriangleRange> ranges, const View& view,
+                const Rect& rect) {
+    const Status drawn = renderer.draw(ranges, view, rect);
     EXPECT_TRUE(drawn.has_value()) << drawn.error().message;
     PixelFrame frame;
     frame.reshape(rect);
@@ -70,17 +71,17 @@ void expect_same(const PixelFrame& a, const PixelFrame& b, const Rect& rect) {
     EXPECT_GT(found.active, 0);
 }
 
-void expect_reads_inside_only(Renderer& renderer, std::span<const DrawRun> runs, const View& view) {
+void expect_reads_inside_only(Renderer& renderer, std::span<const TriangleRange> ranges, const View& view) {
     const Rect part{30, 20, 61, 41};
     const std::array outside{Rect{29, 20, 61, 41}, Rect{30, 19, 61, 41}, Rect{30, 20, 62, 41},
                              Rect{30, 20, 61, 42}, view.viewport()};
     PixelFrame frame;
     frame.reshape({-100, -100, 200, 200});
     EXPECT_THROW(static_cast<void>(renderer.read(part, frame)), CheckFailed);  // before anything is drawn
-    ASSERT_TRUE(renderer.draw(runs, view, part).has_value());
+    ASSERT_TRUE(renderer.draw(ranges, view, part).has_value());
     for (const Rect& rect : outside)
         EXPECT_THROW(static_cast<void>(renderer.read(rect, frame)), CheckFailed) << rect;
-    ASSERT_TRUE(renderer.draw(runs, view, view.viewport()).has_value());
+    ASSERT_TRUE(renderer.draw(ranges, view, view.viewport()).has_value());
     frame.reshape(part);
     for (const Rect& rect : outside)
         EXPECT_THROW(static_cast<void>(renderer.read(rect, frame)), CheckFailed) << rect;

@@ -27,9 +27,9 @@ TEST(CulledPicture, EqualsThatOfTheWholeModel) {
                 const View view = random.posed_view(scene);
                 const Rect rect = random.rect(view);
                 const PixelFrame expected =
-                    test::draw(**renderer, none.cull(all, view, rect).runs, view, rect);
+                    test::draw(**renderer, none.cull(all, view, rect).ranges, view, rect);
                 const test::Difference found = test::compare(
-                    expected, test::draw(**renderer, wide.cull(all, view, rect).runs, view, rect), rect);
+                    expected, test::draw(**renderer, wide.cull(all, view, rect).ranges, view, rect), rect);
                 ASSERT_EQ(found.pixels, 0) << "round " << round << ", " << rect;
                 active += found.active;
             }

@@ -48,10 +48,11 @@ class LeafCullTest : public testing::Test {
             }
         return triangles;
     }
-    std::vector<bool> drawn(const DrawList& list) const {
+    std::vector<bool> drawn(const CullResult& list) const {
         std::vector<bool> triangles(scene_.mesh.triangle_count());
-        for (const DrawRun& run : list.runs)
-            for (std::uint32_t i = 0; i < run.triangle_count; ++i) triangles[run.first_triangle + i] = true;
+        for (const TriangleRange& range : list.ranges)
+            for (std::uint32_t i = 0; i < range.triangle_count; ++i)
+                triangles[range.first_triangle + i] = true;
         return triangles;
     }
 
@@ -71,7 +72,7 @@ TEST_F(LeafCullTest, DrawsTheGroupsLeavesThatAreNotOutsideWithEveryAlgorithm) {
             const View view = random.view(scene_);
             const Rect rect = random.rect(view);
             const std::vector<ObjectId> group = round % 2 == 0 ? all_ : some(random);
-            const DrawList list = cull.cull(group, view, rect);
+            const CullResult list = cull.cull(group, view, rect);
             ASSERT_EQ(drawn(list), not_outside(group, view, rect)) << name_of(algorithm) << " " << round;
             partly += list.triangles > 0 && list.triangles < scene_.mesh.triangle_count() / 2 ? 1 : 0;
         }
@@ -93,7 +94,7 @@ TEST_F(LeafCullTest, DrawsThoseOfAMovingModelAtEveryPoseInAnyOrder) {
             view = random.posed_view(moving);
             if (round % 3 == 0) view.pose = pose;
             const Rect rect = random.rect(view);
-            const DrawList list = cull.cull(all_ids(moving), view, rect);
+            const CullResult list = cull.cull(all_ids(moving), view, rect);
             const std::vector<bool> found = drawn(list);
             ASSERT_EQ(found, not_outside(moving, all_ids(moving), view, rect))
                 << name_of(algorithm) << " " << round;
@@ -151,9 +152,9 @@ TEST_F(LeafCullTest, GivesTheSameListWithEveryAlgorithmThatCulls) {
     LeafCull adsb = culler(CullAlgorithm::kAdsb);
     for (int round = 0; round < 30; ++round) {
         const View view = random.view(scene_);
-        DrawList expected = wide.cull(all_, view, view.viewport());
+        CullResult expected = wide.cull(all_, view, view.viewport());
         for (LeafCull* other : {&a2ssb, &adsb}) {
-            const DrawList list = other->cull(all_, view, view.viewport());
+            const CullResult list = other->cull(all_, view, view.viewport());
             expected.split_level = list.split_level;
             EXPECT_EQ(list, expected);
         }
@@ -166,20 +167,21 @@ TEST_F(LeafCullTest, CountsWhatItDrawsAndMakesAsFewRunsAsThereCanBe) {
     for (int round = 0; round < 40; ++round) {
         const View view = random.view(scene_);
         const std::vector<ObjectId> group = some(random);
-        const DrawList list = cull.cull(group, view, random.rect(view));
+        const CullResult list = cull.cull(group, view, random.rect(view));
         ASSERT_EQ(list.visible.size(), group.size());
         std::vector<std::uint64_t> triangles(scene_.objects.size());
-        for (std::size_t i = 0; i < list.runs.size(); ++i) {
-            const DrawRun& run = list.runs[i];
-            const Object& object = scene_.objects[run.object];
-            EXPECT_GE(run.first_triangle, object.first_triangle);
-            EXPECT_LE(run.first_triangle + run.triangle_count, object.first_triangle + object.triangle_count);
-            triangles[run.object] += run.triangle_count;
+        for (std::size_t i = 0; i < list.ranges.size(); ++i) {
+            const TriangleRange& run = list.ranges[i];
+            const Object& object = scene_.objects[range.object];
+            EXPECT_GE(range.first_triangle, object.first_triangle);
+            EXPECT_LE(range.first_triangle + range.triangle_count,
+                      object.first_triangle + object.triangle_count);
+            triangles[range.object] += range.triangle_count;
             if (i == 0) continue;
-            const DrawRun& before = list.runs[i - 1];
+            const TriangleRange& before = list.ranges[i - 1];
             const std::uint32_t end = before.first_triangle + before.triangle_count;
-            EXPECT_TRUE(end < run.first_triangle ||
-                        (end == run.first_triangle && before.object < run.object));
+            EXPECT_TRUE(end < range.first_triangle ||
+                        (end == range.first_triangle && before.object < range.object));
         }
         std::uint64_t sum = 0;
         std::uint64_t objects = 0;
@@ -190,7 +192,7 @@ TEST_F(LeafCullTest, CountsWhatItDrawsAndMakesAsFewRunsAsThereCanBe) {
         }
         EXPECT_EQ(list.triangles, sum);
         EXPECT_EQ(list.objects, objects);
-        EXPECT_GE(list.leaves, list.runs.size());
+        EXPECT_GE(list.leaves, list.ranges.size());
     }
 }
 
@@ -201,8 +203,8 @@ TEST_F(LeafCullTest, OfAModelInFullViewIsARunForEachObject) {
     camera.fov_y = 1.2f;
     const View view = make_view(camera, 640, 480);
     for (const CullAlgorithm algorithm : kAll) {
-        const DrawList list = culler(algorithm).cull(all_, view, view.viewport());
-        EXPECT_EQ(list.runs, whole_objects(scene_.objects, all_));
+        const CullResult list = culler(algorithm).cull(all_, view, view.viewport());
+        EXPECT_EQ(list.ranges, whole_objects(scene_.objects, all_));
         EXPECT_EQ(list.leaves, scene_.leaves.size());
         EXPECT_EQ(list.triangles, scene_.mesh.triangle_count());
     }
@@ -214,8 +216,8 @@ TEST_F(LeafCullTest, CullsNothingWithNone) {
     for (int round = 0; round < 10; ++round) {
         const View view = random.view(scene_);
         const std::vector<ObjectId> group = some(random);
-        const DrawList list = cull.cull(group, view, random.rect(view));
-        EXPECT_EQ(list.runs, whole_objects(scene_.objects, group));
+        const CullResult list = cull.cull(group, view, random.rect(view));
+        EXPECT_EQ(list.ranges, whole_objects(scene_.objects, group));
         EXPECT_EQ(list.objects, group.size());
     }
 }
@@ -225,9 +227,9 @@ TEST_F(LeafCullTest, DrawsNothingOfAnEmptyGroupOrForNoPixels) {
     const View view = random.view(scene_);
     for (const CullAlgorithm algorithm : kAll) {
         LeafCull cull = culler(algorithm);
-        EXPECT_EQ(cull.cull({}, view, view.viewport()), DrawList{});
-        const DrawList nothing = cull.cull(std::vector<ObjectId>{2, 5}, view, {});
-        EXPECT_TRUE(nothing.runs.empty());
+        EXPECT_EQ(cull.cull({}, view, view.viewport()), CullResult{});
+        const CullResult nothing = cull.cull(std::vector<ObjectId>{2, 5}, view, {});
+        EXPECT_TRUE(nothing.ranges.empty());
         EXPECT_EQ(nothing.visible, (std::vector<std::uint32_t>{0, 0}));
     }
     EXPECT_THROW(
@@ -291,9 +293,9 @@ TEST(LeafCullProperty, NoTriangleThatShowsInTheRectangleIsEverDropped) {
                         ASSERT_FALSE(shows(scene, next, view, rect)) << "triangle " << next << " in " << rect;
                     }
                 };
-                for (const DrawRun& run : cull.cull(all, view, rect).runs) {
-                    check_dropped(run.first_triangle);
-                    for (; next < run.first_triangle + run.triangle_count; ++next)
+                for (const TriangleRange& range : cull.cull(all, view, rect).ranges) {
+                    check_dropped(range.first_triangle);
+                    for (; next < range.first_triangle + range.triangle_count; ++next)
                         shown += shows(scene, next, view, rect) ? 1 : 0;
                 }
                 check_dropped(scene.mesh.triangle_count());

@@ -24,8 +24,8 @@ Triangles scaled(const Mesh& mesh, float scale, float pose = 0) {
     return triangles;
 }
 
-std::vector<DrawRun> some_runs(const ObjectSet& scene, Numbers& numbers) {
-    std::vector<DrawRun> runs;
+std::vector<TriangleRange> some_runs(const ObjectSet& scene, Numbers& numbers) {
+    std::vector<TriangleRange> ranges;
     for (ObjectId id = 0; id < scene.objects.size(); ++id) {
         const Object& object = scene.objects[id];
         if (numbers.below(3) == 0) continue;
@@ -35,11 +35,11 @@ std::vector<DrawRun> some_runs(const ObjectSet& scene, Numbers& numbers) {
         const std::uint32_t end = first + object.triangle_count;
         while (first < end) {
             const std::uint32_t count = whole ? end - first : std::min(end - first, 1 + numbers.below(40));
-            if (whole || numbers.below(2) == 0) runs.push_back({id, first, count});
+            if (whole || numbers.below(2) == 0) ranges.push_back({id, first, count});
             first += count;
         }
     }
-    return runs;
+    return ranges;
 }
 
 using Hits = std::vector<std::optional<RayHit>>;
@@ -85,9 +85,9 @@ TEST_F(CastSceneTest, WantedFindsWhatATreeOfThatFinds) {
     for (const SahSettings& settings : {kDefaultSah, kFastSah}) {
         ASSERT_TRUE(cast_.build_all(settings).has_value());
         for (int repeat = 0; repeat < 12; ++repeat) {
-            const std::vector<DrawRun> runs = some_runs(scene_, numbers);
-            ASSERT_TRUE(part.build(runs, settings).has_value());
-            cast_.want(runs);
+            const std::vector<TriangleRange> ranges = some_runs(scene_, numbers);
+            ASSERT_TRUE(part.build(ranges, settings).has_value());
+            cast_.want(ranges);
             const std::vector<Ray> some = rays(numbers.below(1000));
             const Hits hits = hits_in(cast_.wanted(), some);
             EXPECT_EQ(hits, hits_in(part.wanted(), some));
@@ -96,8 +96,9 @@ TEST_F(CastSceneTest, WantedFindsWhatATreeOfThatFinds) {
             Triangles wanted = scaled(scene_.mesh, cast_.scale());
             wanted.indices.clear();
             std::vector<std::uint32_t> numbers_of;
-            for (const DrawRun& run : runs)
-                for (std::uint32_t t = run.first_triangle; t < run.first_triangle + run.triangle_count; ++t) {
+            for (const TriangleRange& range : ranges)
+                for (std::uint32_t t = range.first_triangle; t < range.first_triangle + range.triangle_count;
+                     ++t) {
                     numbers_of.push_back(t);
                     for (std::uint32_t k = 0; k < 3; ++k)
                         wanted.indices.push_back(scene_.mesh.indices[3 * t + k]);
@@ -116,8 +117,8 @@ TEST_F(CastSceneTest, WantingAllOrOtherThingsBeforeChangesNothing) {
     ASSERT_TRUE(cast_.build_all(kDefaultSah).has_value());
     const std::vector<Ray> some = rays(5);
     const Hits everything = hits_in(cast_.all(), some);
-    const std::vector<DrawRun> one{{0, scene_.objects[0].first_triangle, 1}};
-    std::vector<DrawRun> all;
+    const std::vector<TriangleRange> one{{0, scene_.objects[0].first_triangle, 1}};
+    std::vector<TriangleRange> all;
     for (ObjectId id = 0; id < scene_.objects.size(); ++id)
         all.push_back({id, scene_.objects[id].first_triangle, scene_.objects[id].triangle_count});
     cast_.want(one);
@@ -174,9 +175,9 @@ TEST(MovingCastScene, IsTheSameForAnyTeam) {
         }
         for (std::uint32_t t = 0; t < scene.mesh.triangle_count(); ++t)
             for (int k = 0; k < 3; ++k) ASSERT_EQ(one.corner(t, k), other.corner(t, k));
-        const std::vector<DrawRun> runs = some_runs(scene, numbers);
-        one.want(runs);
-        other.want(runs);
+        const std::vector<TriangleRange> ranges = some_runs(scene, numbers);
+        one.want(ranges);
+        other.want(ranges);
         const auto rays = test::rays_at(scaled(scene.mesh, one.scale(), pose), 2000, 9);
         const Hits hits = hits_in(one.wanted(), rays);
         EXPECT_NE(hits, hits_in(one.all(), rays));

@@ -72,7 +72,7 @@ PixelFrame rasterise(const ObjectSet& scene, const View& view) {
 class RaycastRendererOf : public testing::TestWithParam<const char*> {
   protected:
     const ObjectSet scene_ = test::builtin_scene(GetParam(), 5000);
-    const std::vector<DrawRun> all_ = all_of(scene_);
+    const std::vector<TriangleRange> all_ = all_of(scene_);
     const std::vector<View> views_{view_of(scene_), view_inside(scene_)};
 };
 INSTANTIATE_TEST_SUITE_P(Models, RaycastRendererOf, testing::Values("knot", "town", "spheres"),
@@ -109,10 +109,10 @@ TEST_P(RaycastRendererOf, DrawsTogetherWhatSeveralDrawAndComposite) {
     for (const How& how : kHows)
         for (const View& view : views_)
             for (const std::size_t machines : {2u, 3u}) {
-                std::vector<std::vector<DrawRun>> groups(machines);
+                std::vector<std::vector<TriangleRange>> groups(machines);
                 // An object is on one machine: of equal depths on two machines the composite knows only the
                 // objects.
-                for (const DrawRun& run : all_) groups[next() % machines].push_back(run);
+                for (const TriangleRange& range : all_) groups[next() % machines].push_back(run);
                 const Rect screen = view.viewport();
                 const PixelFrame whole = draw(scene_, view, how);
                 PixelFrame frame = draw(*make_ray_caster(scene_, how), groups[0], view, screen);
@@ -148,20 +148,20 @@ TEST(RaycastRenderer, SettlesTiesByTheSmallerId) {
     const View view = view_of(scene);
     const PixelFrame whole = draw(scene, view, {});
     const auto renderer = make_ray_caster(scene);
-    std::vector<DrawRun> all = all_of(scene);
+    std::vector<TriangleRange> all = all_of(scene);
     // Without the winner of a pixel there is often another triangle as near.
     int ties = 0;
-    for (const DrawRun& run : all) {
-        std::vector<DrawRun> others;
-        for (const DrawRun& other : all)
-            if (other.object != run.object) others.push_back(other);
+    for (const TriangleRange& range : all) {
+        std::vector<TriangleRange> others;
+        for (const TriangleRange& other : all)
+            if (other.object != range.object) others.push_back(other);
         const PixelFrame rest = draw(*renderer, others, view, view.viewport());
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x) {
                 if (*whole.depth(x, y) == kFarDepth || *rest.depth(x, y) != *whole.depth(x, y)) continue;
-                if (*whole.id(x, y) != run.object) continue;
+                if (*whole.id(x, y) != range.object) continue;
                 ++ties;
-                ASSERT_GT(*rest.id(x, y), run.object);
+                ASSERT_GT(*rest.id(x, y), range.object);
             }
     }
     EXPECT_GT(ties, 0);
@@ -191,14 +191,14 @@ TEST(RaycastRenderer, ReadsNothingThatItHasNotDrawnOrThatTheFrameDoesNotHold) {
 TEST(RaycastRenderer, DoesNotDrawARunOutsideOfItsObject) {
     const ObjectSet scene = test::builtin_scene("knot", 2000);
     const View view = view_of(scene);
-    const DrawRun good = all_of(scene)[1];
+    const TriangleRange good = all_of(scene)[1];
     for (const How& how : kHows) {
         const auto renderer = make_ray_caster(scene, how);
         for (const int what : {0, 1, 2}) {
-            DrawRun run = good;
-            if (what == 0) ++run.triangle_count;
-            if (what == 1) --run.first_triangle;
-            if (what == 2) run.object = static_cast<ObjectId>(scene.objects.size());
+            TriangleRange run = good;
+            if (what == 0) ++range.triangle_count;
+            if (what == 1) --range.first_triangle;
+            if (what == 2) range.object = static_cast<ObjectId>(scene.objects.size());
             EXPECT_THROW(static_cast<void>(renderer->draw(std::vector{run}, view, view.viewport())),
                          CheckFailed);
         }
@@ -215,7 +215,7 @@ TEST(RaycastRenderer, SaysWhatItIs) {
 // A view with no rays, or with rays that are not finite.
 TEST(RaycastRenderer, RefusesAViewThatIsNoPerspective) {
     const ObjectSet scene = test::builtin_scene("knot", 2000);
-    const std::vector<DrawRun> all = all_of(scene);
+    const std::vector<TriangleRange> all = all_of(scene);
     const View good = view_of(scene);
     for (const How& how : kHows) {
         const auto renderer = make_ray_caster(scene, how);
@@ -245,7 +245,7 @@ ObjectSet moving_spheres() {
 // A model of any size: the still model is scaled by itself.
 TEST(MovingRaycastRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
     const ObjectSet moving = moving_spheres();
-    const std::vector<DrawRun> all = all_of(moving);
+    const std::vector<TriangleRange> all = all_of(moving);
     for (const How& how : kHows) {
         const auto renderer = make_ray_caster(moving, how);
         std::vector<PixelFrame> pictures;
@@ -269,7 +269,7 @@ TEST(MovingRaycastRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
 // A bad pose is an error of that frame only.
 TEST(MovingRaycastRenderer, RefusesAPoseThatIsNotANumberAndGoesOn) {
     const ObjectSet moving = moving_spheres();
-    const std::vector<DrawRun> all = all_of(moving);
+    const std::vector<TriangleRange> all = all_of(moving);
     for (const How& how : kHows) {
         const auto renderer = make_ray_caster(moving, how);
         View view = view_of(moving);
@@ -445,9 +445,9 @@ TEST(Shadows, AreCastByWhatIsNotDrawn) {
     const ObjectSet scene = plate_over_floor();
     View view = view_of(scene);
     view.to_light = glm::normalize(glm::vec3(0.1f, 1, 0.2f));
-    std::vector<DrawRun> floor;
-    for (const DrawRun& run : all_of(scene))
-        if (scene.objects[run.object].box.max.y < 0.5f) floor.push_back(run);
+    std::vector<TriangleRange> floor;
+    for (const TriangleRange& range : all_of(scene))
+        if (scene.objects[range.object].box.max.y < 0.5f) floor.push_back(run);
     ASSERT_LT(floor.size(), scene.objects.size());
     for (const bool dynamic : {false, true}) {
         const auto renderer = make_ray_caster(scene, {true, dynamic, 1});

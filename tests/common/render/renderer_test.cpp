@@ -38,11 +38,11 @@ std::unique_ptr<Renderer> make(const ObjectSet& scene, RendererKind kind = gl_he
 }
 
 // Draws on a thread of its own, as if on another machine: a renderer is bound to its thread and alone there.
-PixelFrame draw_elsewhere(const ObjectSet& scene, std::span<const DrawRun> runs, const View& view,
+PixelFrame draw_elsewhere(const ObjectSet& scene, std::span<const TriangleRange> ranges, const View& view,
                           RendererKind kind = gl_here()) {
     PixelFrame frame;
     std::thread([&] {
-        if (const auto renderer = make(scene, kind)) frame = draw(*renderer, runs, view, view.viewport());
+        if (const auto renderer = make(scene, kind)) frame = draw(*renderer, ranges, view, view.viewport());
     }).join();
     return frame;
 }
@@ -51,7 +51,7 @@ class RendererTest : public testing::Test {
   protected:
     explicit RendererTest(const char* model = "knot") : scene_(test::builtin_scene(model, 6000)) {}
     const ObjectSet scene_;
-    const std::vector<DrawRun> all_ = all_of(scene_);
+    const std::vector<TriangleRange> all_ = all_of(scene_);
     const View view_ = view_of(scene_);
     std::unique_ptr<Renderer> renderer_ = make(scene_);
 };
@@ -90,7 +90,7 @@ ObjectSet moving_scene() {
 // Vertices move as in posed(), to the last bit.
 TEST(MovingRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
     const ObjectSet moving = moving_scene();
-    const std::vector<DrawRun> all = all_of(moving);
+    const std::vector<TriangleRange> all = all_of(moving);
     for (const RendererKind kind : {gl_here(), RendererKind::kEgl})
         for (const float pose : {0.0f, 0.1f, 1.0f / 3, 0.7f, 1.0f}) {
             ObjectSet still = moving;
@@ -107,7 +107,7 @@ TEST(MovingRenderer, DrawsAPoseAsIfTheModelWereMadeInIt) {
 
 TEST(MovingRenderer, DrawsPosesOneAfterTheOther) {
     const ObjectSet moving = moving_scene();
-    const std::vector<DrawRun> all = all_of(moving);
+    const std::vector<TriangleRange> all = all_of(moving);
     const auto renderer = make(moving);
     View view = view_of(moving);
     const PixelFrame first = draw(*renderer, all, view, view.viewport());
@@ -162,9 +162,9 @@ TEST_F(RendererTest, ForgetsTheFrameBefore) {
 }
 
 // Ranges of all lengths, so that objects take one call or several.
-std::vector<DrawRun> cut(const std::vector<DrawRun>& runs, std::uint32_t seed) {
-    std::vector<DrawRun> parts;
-    for (DrawRun rest : runs)
+std::vector<TriangleRange> cut(const std::vector<TriangleRange>& ranges, std::uint32_t seed) {
+    std::vector<TriangleRange> parts;
+    for (TriangleRange rest : ranges)
         while (rest.triangle_count > 0) {
             seed = seed * 1664525 + 1013904223;
             const std::uint32_t count = std::min(rest.triangle_count, 1 + (seed >> 16) % 8);
@@ -178,16 +178,16 @@ std::vector<DrawRun> cut(const std::vector<DrawRun>& runs, std::uint32_t seed) {
 TEST_F(RendererTest, DrawsRunsOfAnObjectAsTheObject) {
     const PixelFrame whole = draw(*renderer_, all_, view_, view_.viewport());
     for (const std::uint32_t seed : {1u, 2u}) {
-        const std::vector<DrawRun> parts = cut(all_, seed);
+        const std::vector<TriangleRange> parts = cut(all_, seed);
         ASSERT_GT(parts.size(), 2 * all_.size());
         expect_same(draw(*renderer_, parts, view_, view_.viewport()), whole, view_.viewport());
     }
 }
 
 TEST_F(RendererTest, LeavesOutTheTrianglesBetweenRuns) {
-    std::vector<DrawRun> parts = cut(all_, 3);
-    std::vector<DrawRun> odd;
-    std::vector<DrawRun> even;
+    std::vector<TriangleRange> parts = cut(all_, 3);
+    std::vector<TriangleRange> odd;
+    std::vector<TriangleRange> even;
     for (std::size_t i = 0; i < parts.size(); ++i) (i % 2 == 0 ? even : odd).push_back(parts[i]);
     const Rect screen = view_.viewport();
     const PixelFrame whole = draw(*renderer_, all_, view_, screen);
@@ -203,11 +203,11 @@ TEST_F(RendererTest, LeavesOutTheTrianglesBetweenRuns) {
 }
 
 TEST_F(RendererTest, DoesNotDrawARunOutsideOfItsObject) {
-    DrawRun run = all_[1];
-    ++run.triangle_count;
+    TriangleRange run = all_[1];
+    ++range.triangle_count;
     EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{run}, view_, view_.viewport())), CheckFailed);
     run = all_[1];
-    --run.first_triangle;
+    --range.first_triangle;
     EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{run}, view_, view_.viewport())), CheckFailed);
 }
 
@@ -236,8 +236,8 @@ class TiesTest : public RendererTest {
     TiesTest() : RendererTest("town") {}
     // Two machines draw disjoint groups; the second's pixels go to the first.
     void expect_composite_is_exact(const std::function<bool(ObjectId)>& is_first) {
-        std::vector<DrawRun> groups[2];
-        for (const DrawRun& run : all_) groups[is_first(run.object) ? 0 : 1].push_back(run);
+        std::vector<TriangleRange> groups[2];
+        for (const TriangleRange& range : all_) groups[is_first(range.object) ? 0 : 1].push_back(run);
         const Rect screen = view_.viewport();
         const PixelFrame whole = draw(*renderer_, all_, view_, screen);
         PixelFrame first = draw(*renderer_, groups[0], view_, screen);
@@ -253,7 +253,7 @@ class TiesTest : public RendererTest {
 
 TEST_F(TiesTest, OccurBetweenObjects) {
     // In the reversed order, the later of two equal depths shows.
-    std::vector<DrawRun> reversed = all_;
+    std::vector<TriangleRange> reversed = all_;
     std::reverse(reversed.begin(), reversed.end());
     const PixelFrame up = draw(*renderer_, all_, view_, view_.viewport());
     const PixelFrame down = draw(*renderer_, reversed, view_, view_.viewport());
