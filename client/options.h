@@ -47,7 +47,7 @@ struct ClientOptions {
     WireTiming timing;
 };
 
-// The options, or the exit code with which the program is to end now (help or a wrong flag, already said).
+// The options, or the exit code with which the program must end now: it has printed help or an error.
 tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv);
 
 // Those that are set, as in a command line: " --shadows".

@@ -28,7 +28,7 @@ std::string raster_threads(std::size_t servers) {
     return std::to_string(std::max<std::size_t>(1, std::thread::hardware_concurrency() / servers) - 1);
 }
 
-// A live run's page may ask for ray casters later on.
+// Viewers of a live run may ask for ray casters later.
 bool builds_on_cuda(const ClientOptions& options) {
     return options.cuda && (options.view || has_raycast(options.draw.renderers)) && can_build_on_cuda();
 }
@@ -77,7 +77,7 @@ Result<LiveView::Settings> live_settings(const ClientOptions& options, const Obj
     return live;
 }
 
-// For a shell.
+// Quotes a word for a shell.
 std::string quoted(const std::string& word) {
     if (!word.empty() &&
         word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -147,7 +147,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
     SWATH_TRY(auto cameras, make_path(options.path, scene.swept_bounds(), path));
 
     const PictureWriter writer(options.out, options.format);
-    std::optional<Progress> progress;  // a live run has no end to come closer to
+    std::optional<Progress> progress;  // none for a live run, which has no known end
     if (!options.view) progress.emplace(cameras.size(), "frames", options.program.quiet, clock);
     const auto on_picture = [&](FrameNumber frame, const Buffer& encoded) {
         if (progress) progress->step();

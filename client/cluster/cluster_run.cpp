@@ -30,7 +30,7 @@ ClusterRun::ClusterRun(boost::asio::io_context& io, ClusterJob job, const Clock&
       broadcast_([this](NoteTopic topic, FrameNumber frame, const std::string& text) {
           Buffer body(text.size());
           std::memcpy(body.data(), text.data(), text.size());
-          // A display that does not take it is found out by the next frame.
+          // If the display does not take it, the next frame will show.
           (void)machines_->tell_display(Note{topic, frame}, std::move(body));
       }),
       patience_(io) {
@@ -313,7 +313,6 @@ Status ClusterRun::on_report(std::size_t at, const Report& report, Nanoseconds c
     return perform(actions);
 }
 
-// --- a live run
 
 Status ClusterRun::on_audience(const Audience& audience) {
     broadcast_.on_viewers(audience.viewers);

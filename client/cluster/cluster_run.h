@@ -31,10 +31,10 @@ struct ClusterJob {
     Address display;
     std::string model;  // as the user named it
     std::shared_ptr<const ObjectSet> scene;
-    Buffer blob;  // the model for servers that lack it
+    Buffer blob;  // the model, for servers that lack it
     DrawSettings draw;
     Algorithm algorithm = Algorithm::kHybrid;
-    std::vector<Camera> cameras;        // a frame each; none in a live run
+    std::vector<Camera> cameras;        // one per frame; none in a live run
     std::optional<float> pose = 0;      // of all frames; none: path_pose() of each
     std::optional<glm::vec3> to_light;  // unit, model space; none: a head-light
     // Makes a live run: viewers say what is drawn, until somebody ends it. Renderers, cull, algorithm and
@@ -120,7 +120,7 @@ class ClusterRun : public std::enable_shared_from_this<ClusterRun> {
     bool changing_ = false;
     LiveSetup next_setup_;
     std::shared_ptr<const ObjectSet> next_scene_;
-    bool awaiting_servers_ = false;  // it goes on when there is one
+    bool awaiting_servers_ = false;  // the run goes on when there is one
     boost::asio::steady_timer patience_;
 
     bool over_ = false;

@@ -48,7 +48,7 @@ Json all_names() {
     return names;
 }
 
-// Each alone, and what the run was started with.
+// Each renderer alone, and the list that the run was started with.
 Json renderer_choices(const LiveView* live) {
     Json names = all_names<RendererKind>();
     if (live != nullptr && live->start().setup.draw.renderers.size() > 1)

@@ -13,15 +13,14 @@
 
 namespace swath {
 
-// What frames depend on besides the view and the way they are divided. To change it takes a pause between two
-// frames.
+// The part of a wish that is in effect for all frames until it changes, in a pause between two frames.
 struct LiveSetup {
     std::size_t objects = 1500;  // about how many
     DrawSettings draw;
     bool operator==(const LiveSetup&) const = default;
 };
 
-// What the viewer who leads wants to see (docs/viewer.md, which explains the fields). A value.
+// The leader's wish (docs/viewer.md explains the fields). A value.
 struct LiveWish {
     std::uint64_t id = 0;  // the page's number
     std::uint32_t by = 0;  // the viewer's

@@ -286,7 +286,7 @@ Status Machines::on_ready(ServerId id, const Ready& ready) {
     return bring_up_to_date(id);
 }
 
-// What it has may be out of date: the drawing changed while it got ready.
+// The drawing may have changed while the server got ready.
 Status Machines::bring_up_to_date(ServerId id) {
     const Server& server = servers_.at(id);
     if (server.ready && server.drawing != job_.drawing) SWATH_TRY_VOID(ask(id, job_.drawing));
@@ -353,7 +353,6 @@ void Machines::release() {
     }
 }
 
-// --- drawing differently
 
 Status Machines::reconfigure(const Drawing& drawing, std::size_t objects, Reconfigured done) {
     next_drawing_ = drawing;
@@ -412,7 +411,7 @@ void Machines::use_next_drawing() {
 
 Status Machines::end_change(const std::string& refused) {
     asked_.clear();
-    // Who came up meanwhile was not asked.
+    // A server that came up meanwhile was not asked.
     for (const auto& [id, server] : servers_)
         if (server.ready && server.drawing != job_.drawing) {
             roster_.on_ready(id, false);

@@ -30,7 +30,7 @@ class Machines : public std::enable_shared_from_this<Machines> {
         ServerSource servers;
         Address display;
         std::string model;  // as the user named it
-        Buffer blob;        // the model for servers that lack it
+        Buffer blob;        // the model, for servers that lack it
         Drawing drawing;
         std::size_t objects = 0;  // that this drawing has
         PictureFormat format = PictureFormat::kNone;
@@ -74,8 +74,8 @@ class Machines : public std::enable_shared_from_this<Machines> {
     void on_issued(const std::vector<ServerId>& servers) { roster_.on_issued(servers); }
     void on_over(const std::vector<ServerId>& servers);
 
-    // While no frame is open: all members cut, draw and cull like this from now on, or none does and `done`
-    // gets the reason. Newcomers follow by themselves.
+    // Call it while no frame is open. All members cut, draw and cull like this from now on, or none does and
+    // `done` gets the reason. Newcomers follow by themselves.
     using Reconfigured = std::function<Status(const std::string& refused)>;
     Status reconfigure(const Drawing& drawing, std::size_t objects, Reconfigured done);
 
@@ -137,7 +137,7 @@ class Machines : public std::enable_shared_from_this<Machines> {
 
     // A change of drawing.
     SetupChange change_;
-    std::set<ServerId> asked_;  // for it, and have not answered
+    std::set<ServerId> asked_;  // those that were asked and have not answered
     Drawing next_drawing_;
     std::size_t next_objects_ = 0;
     Reconfigured reconfigured_;

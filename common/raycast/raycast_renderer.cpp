@@ -40,14 +40,13 @@ class RaycastRenderer final : public Renderer {
 
     Status draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) override {
         CHECK(view.viewport().contains(rect) == true);
-        const auto rays = Pinhole::of(view, cast_.scale());
-        if (!rays) return tl::unexpected(rays.error());
+        SWATH_TRY(const auto rays, Pinhole::of(view, cast_.scale()));
         pixels_.reshape(rect);
         if (ranges.empty()) {
             pixels_.clear(rect);
             return {};
         }
-        if (const auto status = prepare(ranges, view.pose); !status) return status;
+        SWATH_TRY_VOID(prepare(ranges, view.pose));
         const int columns = (rect.width() + kBlock - 1) / kBlock;
         const int blocks = columns * ((rect.height() + kBlock - 1) / kBlock);
         std::atomic<int> next{0};
@@ -55,7 +54,7 @@ class RaycastRenderer final : public Renderer {
             for (int block; (block = next.fetch_add(1, std::memory_order_relaxed)) < blocks;) {
                 const int x = rect.x0 + kBlock * (block % columns);
                 const int y = rect.y0 + kBlock * (block / columns);
-                cast_block({x, y, std::min(x + kBlock, rect.x1), std::min(y + kBlock, rect.y1)}, *rays, view);
+                cast_block({x, y, std::min(x + kBlock, rect.x1), std::min(y + kBlock, rect.y1)}, rays, view);
             }
         });
         return {};
@@ -190,7 +189,7 @@ class RaycastRenderer final : public Renderer {
 Result<std::unique_ptr<Renderer>> make_raycast_renderer(const RendererSetup& setup, const ObjectSet& scene) {
     CHECK(setup.threads > 0u);
     auto renderer = std::make_unique<RaycastRenderer>(setup, scene);
-    if (const auto status = renderer->build(); !status) return tl::unexpected(status.error());
+    SWATH_TRY_VOID(renderer->build());
     return renderer;
 }
 

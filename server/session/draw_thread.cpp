@@ -23,8 +23,8 @@ DrawThread::~DrawThread() {
     gone.wait(lock, [&] { return done; });
 }
 
-// Renderer and culling are of a scene, so a new one means new ones. The old renderer goes first: a thread has
-// no two.
+// Renderer and culling belong to a scene, so a new scene needs new ones. The old renderer goes first: a
+// thread cannot have two.
 Status DrawThread::configure(const Drawing& drawing) {
     const bool cut = drawing.cut != scene_.cut;
     if (cut || setup_of(drawing) != setup_of(drawing_)) renderer_.reset();

@@ -57,7 +57,7 @@ class DrawThread {
     // Cuts the mesh into objects and makes what culls and draws them, for this server of the run.
     void load(Mesh mesh, ServerId server, const Drawing& drawing,
               std::function<void(Result<SceneInfo>)> done);
-    // Does the same otherwise; where that fails, goes back to what was. Fails only when there is no way back.
+    // Makes them anew; if that fails, goes back to those before. Fails only if there is no way back.
     void reconfigure(const Drawing& drawing, std::function<void(Result<SceneInfo>)> done);
     void draw(DrawJob job, std::function<void(DrawResult)> done);
 
@@ -70,12 +70,12 @@ class DrawThread {
     RendererFactory factory_;
     const Clock& clock_;
     std::size_t threads_;
-    std::unique_ptr<ThreadTeam> team_;    // of thread_
-    ObjectSet scene_;                     // of thread_
+    std::unique_ptr<ThreadTeam> team_;    // thread_'s
+    ObjectSet scene_;                     // thread_'s
     ServerId server_{};                   // of thread_; which of the drawing's renderers is ours
-    Drawing drawing_;                     // of thread_; of what there is
-    std::unique_ptr<LeafCull> cull_;      // of thread_
-    std::unique_ptr<Renderer> renderer_;  // of thread_
+    Drawing drawing_;                     // thread_'s; in effect
+    std::unique_ptr<LeafCull> cull_;      // thread_'s
+    std::unique_ptr<Renderer> renderer_;  // thread_'s
     WorkerThread thread_;                 // last: its tasks use the rest
 };
 

@@ -65,7 +65,7 @@ void ServerSession::on_server_closed(ServerId id, const Connection& connection, 
     const auto peer = peers_.find(id);
     if (peer == peers_.end() || peer->second.get() != &connection) return;
     peers_.erase(peer);
-    // A Bye comes when a peer has left, or when the client has ended the run and it heard of that before us.
+    // A Bye: the peer has left, or heard before us that the client has ended the run.
     if (why || !draw_thread_) return;
     log_warning("lost server {} ({}): {}", index(id), connection.peer(), why.error().message);
     tell_client(Lost{id, why.error().message});
@@ -79,7 +79,6 @@ Status ServerSession::on_message(const std::shared_ptr<Connection>& from, Messag
     return fail("{} is not expected from a display", name(message));
 }
 
-// --- setting up
 
 Status ServerSession::from_client(Message&& message, Buffer&& body) {
     if (const auto* setup = std::get_if<ServerSetup>(&message)) return on_setup(*setup);

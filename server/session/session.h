@@ -65,8 +65,7 @@ class ServerSession final : public Session, public std::enable_shared_from_this<
     Status send_tile(OpenFrame& frame);
     Status finish(FrameNumber number);
     void tell_client(const Message& message);
-    // Does the rest of something that another thread began, unless the session is over; its errors end the
-    // session.
+    // Goes on with something that another thread began, unless the session is over; errors end the session.
     void resume(const std::function<Status()>& rest);
     void give_up(const Error& error);
 
