@@ -5,18 +5,34 @@
 
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 
 #include "common/image/picture.h"
+#include "common/program/version.h"
+#include "common/wire/codec.h"
 
 namespace swath {
 
-std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
+std::optional<int> parse_options(CLI::App& app, int argc, char** argv,
+                                 const std::function<std::string()>& about) {
+    const std::string program = std::filesystem::path(argv[0]).filename();
+    app.set_version_flag(
+        "--version",
+        [&] {
+            const std::string from = commit().empty() ? "" : fmt::format(", commit {}", commit());
+            return fmt::format("{} {}{}\nprotocol   {}\n{}", program, version(), from, kWireVersion,
+                               about ? about() : "");
+        },
+        "version, commit, protocol, and what can draw here");
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         std::cout << app.help();
+        return kExitDone;
+    } catch (const CLI::CallForVersion& said) {
+        std::cout << said.what();
         return kExitDone;
     } catch (const CLI::ParseError& error) {
         return usage_error({error.what()});

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -16,9 +17,10 @@ namespace swath {
 
 enum ExitCode { kExitDone = 0, kExitFailed = 1, kExitUsage = 2 };
 
-// Parses; the exit code if the program is to end now (help, or a wrong flag: one line on stderr and
-// kExitUsage).
-std::optional<int> parse_options(CLI::App& app, int argc, char** argv);
+// Parses; the exit code if the program is to end now (help, --version, or a wrong flag: one line on stderr
+// and kExitUsage). `about` gives further lines for --version.
+std::optional<int> parse_options(CLI::App& app, int argc, char** argv,
+                                 const std::function<std::string()>& about = {});
 int usage_error(const Error& error);  // prints the line, gives kExitUsage
 int run_error(const Error& error);    // prints the line, gives kExitFailed
 

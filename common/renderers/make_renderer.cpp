@@ -22,6 +22,17 @@ DefaultRenderer default_renderer() {
     return {RendererKind::kRaycast, missing};
 }
 
+std::string renderers_here() {
+    std::string lines;
+    for (const RendererKind kind : kAll<RendererKind>) {
+        const Result<std::string> found =
+            kind == RendererKind::kRaycast ? Result<std::string>("casts rays everywhere") : try_gl(kind);
+        lines +=
+            fmt::format("{:<9}  {}\n", name_of(kind), found ? *found : "not here: " + found.error().message);
+    }
+    return lines;
+}
+
 bool can_build_on_cuda() {
     const std::string missing = missing_cuda();
     if (!missing.empty()) log_warning("--trees-on cuda: {}; threads build the trees", missing);
