@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "client/report/picture_writer.h"
+#include "common/renderers/make_renderer.h"
 #include "common/scene/procedural.h"
 
 namespace swath {
@@ -101,22 +103,28 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     std::string max_view =
         fmt::format("{}x{}", options.view_limits.max_width, options.view_limits.max_height);
     auto* viewer =
-        app.add_option("--view", view,
-                       "live: shown and steered by a page, with --local at this [HOST:]PORT [8080]")
+        app.add_option(
+               "--view", view,
+               "live: a page shows and steers it, with --local at this [HOST:]PORT [8080]. With --display,\n"
+               "start that one with --view HOST:PORT, and say --view here without a port")
             ->expected(0, 1)
             ->excludes(single);
     app.add_option("--view-max-size", max_view, "largest picture that viewers may ask for")
         ->capture_default_str()
         ->needs(viewer);
-    app.add_option("--algorithm", algorithm, "how to divide a frame: " + name_list<Algorithm>())
+    app.add_option("--algorithm", algorithm,
+                   "how to divide a frame: " + name_list<Algorithm>() +
+                       ". Take hybrid;\nthe others are published ones to compare it with")
         ->capture_default_str();
     auto* draw_with =
         app.add_option("--renderer", renderer,
                        "osmesa, egl (surfaceless) or raycast; with commas between, for the servers in turn\n"
                        "[the first of the three that works on this machine]");
     for (const FlagOption& one : kFlagOptions) app.add_flag(one.name, options.draw.flags.*one.flag, one.help);
-    app.add_option("--cull", cull,
-                   "how servers find what they draw: " + name_list<CullAlgorithm>() + " (all of their part)")
+    app.add_option(
+           "--cull", cull,
+           "how servers find what they draw: " + name_list<CullAlgorithm>() +
+               ". Take wide; a2ssb and adsb are\npublished ones to compare it with, none draws all of a part")
         ->capture_default_str();
     app.add_option("--objects-by", objects_by,
                    "objects are cells of a uniform octree, or of a SAH octree: uniform, sah")
@@ -136,13 +144,18 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     auto* frame_count = app.add_option("--frames", frames, "how many [50, or all of a camera file]")
                             ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
                             ->excludes(viewer);
-    app.add_option("--path", options.path,
-                   "of the camera: orbit, random (seeded, as in the paper), or a FILE with a camera a line")
+    app.add_option(
+           "--path", options.path,
+           "of the camera: orbit, random (seeded, as in the paper), or a FILE with a line a frame: eye,\n"
+           "target, up and vertical angle in degrees, ten numbers, as 0 0 5  0 0 0  0 1 0  40")
         ->capture_default_str();
     app.add_option("--seed", options.seed, "of the random path")
         ->capture_default_str()
         ->check(whole_number());
-    app.add_option("--zoom", options.zoom, "1: the model about fills the picture")
+    app.add_option(
+           "--zoom", options.zoom,
+           "1: the model's bounding box fits in every frame (orbit), or the longest side of the box is\n"
+           "as high as the picture (random); 2: twice as near")
         ->capture_default_str()
         ->check(number_within(0.01, 100));
     app.add_option("--in-flight", options.in_flight, "frames begun and not complete at a time")
@@ -150,21 +163,25 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->check(CLI::Range(1, 8));
     add_threads_option(app, options.threads);
     add_trees_option(app, options.cuda)->excludes(remote);
-    app.add_option("--out", options.out, "folder for the pictures, frame_0000.png and so on [none are kept]")
+    app.add_option(
+           "--out", options.out,
+           "folder for the pictures, frame_0000.png and so on, or the file of the only one, x.png or\n"
+           "x.jpg [no pictures are kept]")
         ->excludes(viewer);
-    app.add_option("--format", format, "of the pictures: png (exact) or jpeg")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"png", "jpeg"}))
-        ->excludes(viewer);
+    auto* picture_format = app.add_option("--format", format, "of the pictures: png (exact) or jpeg")
+                               ->capture_default_str()
+                               ->check(CLI::IsMember({"png", "jpeg"}))
+                               ->excludes(viewer);
     app.add_option("--timeline", options.timeline,
-                   "what every machine did when: FILE.csv, or FILE.json for ui.perfetto.dev");
+                   "what every machine did when: FILE.csv, a table, or FILE.json for ui.perfetto.dev or,\n"
+                   "without a network, a Chromium's chrome://tracing");
     app.add_option("--connect-s", options.connect_patience_s, "how long to try to reach servers and display")
         ->capture_default_str()
         ->check(number_within(0.1, 3600));
     add_program_options(app, options.program, options.timing);
     app.footer("\nBuilt-in models, about a million triangles each unless :TRIANGLES says otherwise:\n" +
                builtin_list() + "\nExit codes: 0 done, 1 failed, 2 wrong usage.");
-    if (const auto code = parse_options(app, argc, argv)) return tl::unexpected(*code);
+    if (const auto code = parse_options(app, argc, argv, renderers_here)) return tl::unexpected(*code);
 
     const auto refuse = [](const Error& error) { return tl::unexpected(usage_error(error)); };
     const auto parsed_size = parse_size("--size", size);
@@ -200,6 +217,11 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     if (octree->count() > 0) options.granularity.depth = depth;
     if (frame_count->count() > 0) options.frames = frames;
     options.format = options.out.empty() ? PictureFormat::kNone : *parse<PictureFormat>(format);
+    if (const auto of_file = format_of_file(options.out)) {
+        if (picture_format->count() > 0 && options.format != *of_file)
+            return refuse({fmt::format("--out: '{}': --format says {}", options.out, format)});
+        options.format = *of_file;
+    }
     if (!options.timeline.empty() && !options.timeline.ends_with(".csv") &&
         !options.timeline.ends_with(".json"))
         return refuse(

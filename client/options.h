@@ -36,7 +36,7 @@ struct ClientOptions {
     std::uint32_t in_flight = 3;
     int threads = -1;   // besides the drawing one, per process; -1: as many as fit
     bool cuda = false;  // builds the trees of ray casters on this machine
-    std::string out;    // folder of pictures; empty: none
+    std::string out;    // folder of pictures, or the file of one; empty: none
     PictureFormat format = PictureFormat::kPng;
     std::string timeline;  // file; empty: none
     double connect_patience_s = 5;

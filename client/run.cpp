@@ -33,6 +33,11 @@ bool builds_on_cuda(const ClientOptions& options) {
     return options.cuda && (options.view || has_raycast(options.draw.renderers)) && can_build_on_cuda();
 }
 
+// The model as any program finds it, wherever it runs on this machine.
+std::string whole_name(const std::string& model) {
+    return is_builtin(model) ? model : std::filesystem::absolute(model).string();
+}
+
 Result<std::unique_ptr<LocalCluster>> start_local(const ClientOptions& options) {
     LocalCluster::Options local;
     local.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -118,8 +123,8 @@ std::string command_of(const ClientOptions& options, const LiveWish& wish,
     return fmt::format(
         "swath-client {} {} --algorithm {} --renderer {} --cull {} {} --size {}x{} "
         "--background {:02x}{:02x}{:02x}{} --path view.camera --out view",
-        quoted(options.model), where, name_of(wish.algorithm), how, name_of(draw.cull), what, wish.width,
-        wish.height, options.background[0], options.background[1], options.background[2], look);
+        quoted(whole_name(options.model)), where, name_of(wish.algorithm), how, name_of(draw.cull), what,
+        wish.width, wish.height, options.background[0], options.background[1], options.background[2], look);
 }
 
 Status save_timeline(const std::string& file, const std::vector<FrameTimeline>& frames) {
@@ -146,9 +151,13 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
                      static_cast<float>(options.zoom)};
     SWATH_TRY(auto cameras, make_path(options.path, scene.swept_bounds(), path));
 
-    const PictureWriter writer(options.out, options.format);
-    std::optional<Progress> progress;  // none for a live run, which has no known end
-    if (!options.view) progress.emplace(cameras.size(), "frames", options.program.quiet, clock);
+    const std::size_t frame_count = cameras.size();
+    SWATH_TRY(const auto writer, PictureWriter::make(options.out, options.format, frame_count));
+    if (options.out.empty() && !options.view) log_info("no pictures are kept; --out FOLDER keeps them");
+    std::optional<Progress> progress;  // of a run that has an end, from when it begins to draw
+    const auto begin_to_draw = [&] {
+        if (!options.view) progress.emplace(frame_count, "frames", options.program.quiet, clock);
+    };
     const auto on_picture = [&](FrameNumber frame, const Buffer& encoded) {
         if (progress) progress->step();
         return writer.write(frame, encoded);
@@ -168,6 +177,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
         job.height = options.height;
         job.background = options.background;
         job.format = options.format;
+        begin_to_draw();
         frames = render_single(job, clock, on_picture);
     } else {
         std::unique_ptr<LocalCluster> local;
@@ -180,9 +190,7 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
             job.servers.list = local->servers();
             job.display = local->display();
         }
-        // Servers elsewhere look for the file under the path that it has here.
-        job.model =
-            is_builtin(options.model) ? options.model : std::filesystem::absolute(options.model).string();
+        job.model = whole_name(options.model);  // servers elsewhere look for the file under this path
         job.scene = shared_scene;
         job.blob = std::move(blob);
         job.draw = options.draw;
@@ -212,18 +220,21 @@ Status run_client(const ClientOptions& options, StopSignals& signals) {
                 log_info("{} servers and the display are ready after {:.2f} s", servers,
                          std::chrono::duration<double>(clock.now() - begin).count());
                 if (options.view) std::cout << "viewer " << page << std::endl;
+                begin_to_draw();
             },
             on_picture);
     }
     if (!frames) return tl::unexpected(frames.error());
 
     std::cout << to_text(summarise(*frames));
+    if (!options.view) std::cout << "pictures: " << writer.summary() << '\n';
     if (!options.timeline.empty()) {
         SWATH_TRY_VOID(save_timeline(options.timeline, *frames));
         std::cout << "timeline: " << options.timeline
-                  << (options.timeline.ends_with(".json") ? " (open it in ui.perfetto.dev)\n" : "\n");
+                  << (options.timeline.ends_with(".json")
+                          ? " (open it in ui.perfetto.dev, or offline in a Chromium's chrome://tracing)\n"
+                          : "\n");
     }
-    if (!options.out.empty()) std::cout << "pictures: " << frames->size() << " in " << options.out << "/\n";
     return {};
 }
 

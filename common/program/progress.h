@@ -10,8 +10,10 @@ namespace swath {
 // line every tenth of the run elsewhere. One thread at a time.
 class Progress {
   public:
-    // `what` is counted, in the plural: "frames". `total` at least 1.
-    Progress(std::size_t total, std::string what, bool quiet, const Clock& clock);
+    // `what` is counted, in the plural: "frames". `total` at least 1. Of what is over within `patience`
+    // nothing is shown.
+    Progress(std::size_t total, std::string what, bool quiet, const Clock& clock,
+             Nanoseconds patience = Nanoseconds(0));
     void step();
 
   private:
@@ -20,6 +22,7 @@ class Progress {
     bool quiet_;
     bool terminal_;
     const Clock& clock_;
+    Nanoseconds patience_;
     Nanoseconds begin_;
     Nanoseconds drawn_{0};
     std::size_t done_ = 0;

@@ -151,6 +151,57 @@ TEST_F(Output, JpegPicturesAreJpegs) {
     }
 }
 
+TEST_F(Output, OnePictureCanHaveAFileOfItsOwn) {
+    const Arguments one{"builtin:knot:2000", "--size", "64x48", "--frames", "1", "--single", "--out"};
+    const std::string png = files_.path_of("new/still.png");
+    const std::string jpg = files_.path_of("still.jpg");
+    EXPECT_NE(succeed(one + Arguments{png}).out.find("pictures: " + png), std::string::npos);
+    EXPECT_TRUE(contents(png).starts_with("\x89PNG\r\n"));
+    succeed(one + Arguments{jpg});
+    EXPECT_TRUE(contents(jpg).starts_with("\xff\xd8"));
+    EXPECT_EQ(file_names(files_.path_of("new")), std::vector<std::string>{"still.png"});
+
+    expect_one_error(client(run_ + Arguments{"--single", "--out", files_.path_of("many.png")}), 1,
+                     {"--out", "many.png", "5 frames", "--frames 1"});
+    EXPECT_FALSE(std::filesystem::exists(files_.path_of("many.png")));
+    std::filesystem::create_directory(files_.path_of("folder.png"));
+    succeed(run_ + Arguments{"--single", "--out", files_.path_of("folder.png")});
+    EXPECT_EQ(file_names(files_.path_of("folder.png")).size(), static_cast<std::size_t>(kFrames));
+}
+
+TEST_F(Output, SummarySaysWhatBecameOfThePictures) {
+    const Arguments run{"builtin:knot:2000", "--size", "64x48", "--single", "--frames"};
+    const std::string folder = files_.path_of("out");
+    const Finished none = succeed(run + Arguments{"2"});
+    EXPECT_NE(none.out.find("pictures: none kept (--out FOLDER keeps them)\n"), std::string::npos)
+        << none.out;
+    EXPECT_NE(none.err.find("no pictures are kept"), std::string::npos) << none.err;
+    const auto expect_said = [&](const Arguments& how, const std::string& said) {
+        const Finished finished = succeed(run + how + Arguments{"--out", folder});
+        EXPECT_NE(finished.out.find("pictures: " + said + "\n"), std::string::npos) << finished.out;
+        EXPECT_EQ(finished.err.find("no pictures"), std::string::npos);
+    };
+    expect_said({"3"}, "3 in " + folder + "/");
+    expect_said({"3"}, "3 in " + folder + "/");
+    files_.write("out/frame_of_mine.txt", "kept");
+    expect_said({"1"}, "1 in " + folder + "/, beside 2 of earlier runs");
+    expect_said({"2", "--format", "jpeg"}, "2 in " + folder + "/, beside 3 of earlier runs");
+    EXPECT_EQ(file_names(folder).size(), 6u);
+}
+
+TEST_F(Output, VersionNamesTheCommitTheProtocolAndWhatCanDraw) {
+    for (const char* program : {"swath-client", "swath-server", "swath-display", "swath-sim"}) {
+        const Finished finished = start(program, {"--version"})->wait(kPatience);
+        EXPECT_EQ(finished.exit_code, 0) << finished.err;
+        EXPECT_TRUE(finished.out.starts_with(std::string(program) + " 0.")) << finished.out;
+        EXPECT_NE(finished.out.find("\nprotocol "), std::string::npos) << finished.out;
+        const bool draws = program == std::string("swath-client") || program == std::string("swath-server");
+        for (const char* renderer : {"osmesa", "egl", "raycast"})
+            EXPECT_EQ(finished.out.find(std::string("\n") + renderer + " ") != std::string::npos, draws)
+                << finished.out;
+    }
+}
+
 TEST_F(Output, CameraFileGivesAsManyFramesAsItHasLines) {
     const std::string cameras =
         files_.write("cameras.txt", "0 0 5 0 0 0 0 1 0 40\n5 0 0 0 0 0 0 1 0 40 # side\n");
