@@ -15,15 +15,17 @@ int main(int argc, char** argv) {
     CLI::App app{
         "swath-sim: what a cluster would do, on hardware that is described rather than there. It runs the "
         "partitioners and\nthe decisions of the real programs with modelled durations.\n"};
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);  // without one, a wrong word is what there is to say something about
 
     RunOptions run_options;
     ScenarioFlags run_flags;
     auto* run_command = app.add_subcommand("run", "simulate one scenario, paper mode beside full mode");
     run_flags.add_to(*run_command, false);
     run_command->add_option("--csv", run_options.csv, "write the table to this file");
-    run_command->add_option("--timeline", run_options.timeline,
-                            "what every machine did when: FILE.csv, or FILE.json for ui.perfetto.dev");
+    run_command->add_option(
+        "--timeline", run_options.timeline,
+        "what every machine did when: FILE.csv, a table, or FILE.json for ui.perfetto.dev or,\n"
+        "without a network, a Chromium's chrome://tracing");
 
     SweepOptions sweep_options;
     ScenarioFlags sweep_flags;
@@ -56,6 +58,8 @@ int main(int argc, char** argv) {
     hardware_command->add_option("PROFILE", profile, "a built-in's name or a FILE.toml");
 
     if (const auto code = parse_options(app, argc, argv)) return *code;
+    if (app.get_subcommands().empty())
+        return usage_error({"a subcommand is needed: run, sweep, study, compare or hardware"});
     tune_allocator();
     Status status;
     if (run_command->parsed()) {
@@ -63,7 +67,7 @@ int main(int argc, char** argv) {
         if (!scenario) return usage_error(scenario.error());
         run_options.scenario = std::move(*scenario);
         if (const auto wrong = check(run_options); !wrong) return usage_error(wrong.error());
-        status = run(run_options);
+        status = run(run_options, SteadyClock());
     } else if (sweep_command->parsed()) {
         auto scenario = sweep_flags.read();
         if (!scenario) return usage_error(scenario.error());
@@ -76,7 +80,8 @@ int main(int argc, char** argv) {
     } else if (compare_command->parsed()) {
         const auto curves = read_curves(inputs);
         status = curves ? write_comparison(*curves, compare_out) : tl::unexpected(curves.error());
-        if (status) std::cout << "comparison: " << compare_out << "/compare.svg, .png and .csv\n";
+        if (status)
+            std::cout << to_text(*curves) << "comparison: " << compare_out << "/compare.svg, .png and .csv\n";
     } else if (profile.empty()) {
         for (const std::string& name : builtin_hardware())
             std::cout << fmt::format("{:<10}  {}\n", name, find_hardware(name)->about);

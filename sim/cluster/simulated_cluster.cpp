@@ -178,6 +178,7 @@ class Cluster {
 
     void on_picture(FrameNumber number, Nanoseconds when) {
         pictures_.push_back(when);
+        if (scenario_.on_picture) scenario_.on_picture();
         latency_s_ += seconds(when - frames_.at(number).begin);
         send(display_host(), kClient, kReportBytes, [this, number] {
             const auto actions = decided(director_.on_display_report(number));

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct ClusterScenario {
     std::size_t frames_in_flight = 3;
     Hardware hardware;
     bool keep_timelines = false;
+    std::function<void()> on_picture = {};  // called for each that is complete; may be empty
 };
 
 // The share of the run, 0 to 1, for which a resource was at work; where several machines have it, that of the

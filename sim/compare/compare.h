@@ -14,6 +14,7 @@ struct Curve {
     std::string label;  // the input's
     std::string name;   // "hybrid, buddha, full mode"; for a run of the cluster, the label
     std::vector<std::pair<std::size_t, double>> points;  // (servers, speed-up), ascending
+    bool measured = false;                               // a run of the cluster
     bool operator==(const Curve&) const = default;
 };
 
@@ -26,8 +27,17 @@ struct Curve {
 // Curves are in the order of the inputs. Errors name the file, and the line or what the file lacks.
 Result<std::vector<Curve>> read_curves(std::span<const std::string> inputs);
 
-// Writes compare.csv (in the tables' schema, so that it can be an input), compare.svg and compare.png into
-// the folder, which it makes. Curves of one name have one colour; each label has its own style.
+// Returns the curves that a chart has room for, in their order. Without measured ones these are all. Beside
+// measured ones they go up to twice the measured servers, of a label with full mode only that is taken, because
+// a real run has all stages, and the six nearest to a measured one stay.
+std::vector<Curve> worth_drawing(std::span<const Curve> curves);
+
+// Writes compare.csv with all curves (in the tables' schema, so that it can be an input), and compare.svg and
+// compare.png with those worth drawing into the folder, which it makes. Measured curves are thick and black.
+// Of the others, curves of one name have one colour, and each label has its own style.
 Status write_comparison(std::span<const Curve> curves, const std::filesystem::path& folder);
+
+// Returns the curves worth drawing as a table of numbers, a line each.
+std::string to_text(std::span<const Curve> curves);
 
 }  // namespace swath::sim

@@ -11,7 +11,8 @@
 namespace swath::sim {
 namespace {
 
-Outcome run_path(const Experiment& experiment, const std::vector<Camera>& cameras) {
+Outcome run_path(const Experiment& experiment, const std::vector<Camera>& cameras,
+                 const std::function<void()>& on_frame) {
     Outcome outcome;
     const std::span<const Object> model = experiment.model->scene.objects;
     const auto partitioner = make_partitioner(experiment.algorithm, model);
@@ -31,7 +32,8 @@ Outcome run_path(const Experiment& experiment, const std::vector<Camera>& camera
                                  experiment.servers,
                                  experiment.frames_in_flight,
                                  *experiment.hardware,
-                                 false};
+                                 false,
+                                 on_frame};
         outcome.full.add(simulate(scenario));
     }
     return outcome;
@@ -104,7 +106,8 @@ std::vector<Row> all_rows(const Experiment& experiment, const Outcome& outcome) 
 }
 
 std::vector<Outcome> run_experiments(std::span<const Experiment> experiments, std::size_t threads,
-                                     const std::function<void(std::size_t, const Outcome&)>& on_done) {
+                                     const std::function<void(std::size_t, const Outcome&)>& on_done,
+                                     const std::function<void()>& on_frame) {
     // One experiment on one path. Outcomes are added up in the order of the paths.
     struct Task {
         std::size_t experiment;
@@ -121,13 +124,19 @@ std::vector<Outcome> run_experiments(std::span<const Experiment> experiments, st
     }
     std::vector<Outcome> outcomes(experiments.size());
     std::atomic<std::size_t> next{0};
-    std::mutex mutex;  // guards missing, outcomes, failure and on_done
+    std::mutex mutex;  // guards missing, outcomes, failure, on_done and on_frame
     std::exception_ptr failure;
+    std::function<void()> on_frame_locked;
+    if (on_frame)
+        on_frame_locked = [&] {
+            const std::lock_guard lock(mutex);
+            on_frame();
+        };
     const auto work = [&] {
         for (std::size_t t = next++; t < tasks.size(); t = next++) {
             const auto [e, p] = tasks[t];
             try {
-                parts[e][p] = run_path(experiments[e], (*experiments[e].paths)[p]);
+                parts[e][p] = run_path(experiments[e], (*experiments[e].paths)[p], on_frame_locked);
                 const std::lock_guard lock(mutex);
                 if (--missing[e] > 0) continue;
                 for (const Outcome& part : parts[e]) {

@@ -65,8 +65,10 @@ std::vector<Row> table1_rows(const Experiment& experiment, const Outcome& outcom
 std::vector<Row> all_rows(const Experiment& experiment, const Outcome& outcome);
 
 // Runs experiments on `threads` threads (at least 1). Calls `on_done` with the index of each one that is
-// complete, from one thread at a time. Outcomes do not depend on the number of threads.
+// complete, and `on_frame` for each frame of full mode, from one thread at a time. Outcomes do not depend on the
+// number of threads.
 std::vector<Outcome> run_experiments(std::span<const Experiment> experiments, std::size_t threads,
-                                     const std::function<void(std::size_t, const Outcome&)>& on_done);
+                                     const std::function<void(std::size_t, const Outcome&)>& on_done,
+                                     const std::function<void()>& on_frame = {});
 
 }  // namespace swath::sim

@@ -104,6 +104,9 @@ std::string style_of(const Series& series, std::size_t place) {
             return fmt::format(
                 "with linespoints linecolor rgb '{}' linewidth 2 dashtype (8,5) pointtype {} pointsize 0.7",
                 rgb, nth(kMarks, colour));
+        case Style::kBold:
+            return fmt::format("with linespoints linecolor rgb '{}' linewidth 4 pointtype {} pointsize 1.4",
+                               rgb, nth(kMarks, colour));
         case Style::kPoints:
             return fmt::format("with points linecolor rgb '{}' linewidth 1.5 pointtype {} pointsize 1.1", rgb,
                                nth(kOpenMarks, colour));

@@ -12,6 +12,7 @@ namespace swath::sim {
 enum class Style {
     kLine,       // with marks
     kDashed,     // with marks, dashed
+    kBold,       // with large marks and thick, for what the others are compared with
     kPoints,     // marks without a line, for others' figures beside ours
     kReference,  // thin, grey and dashed, for an ideal
 };

@@ -3,12 +3,15 @@
 #include <iostream>
 
 #include "common/base/file.h"
+#include "common/program/progress.h"
 #include "common/timeline/export.h"
 #include "sim/run/side_by_side.h"
 #include "sim/scenario/scenario.h"
 
 namespace swath::sim {
 namespace {
+
+constexpr auto kPatience = std::chrono::seconds(3);  // before progress is shown
 
 Status save_timeline(const Experiment& e, const std::string& file) {
     const auto costs = simulate({e.model->scene.objects, e.paths->front(), e.width, e.height, e.algorithm,
@@ -29,12 +32,15 @@ Status check(const RunOptions& options) {
     return {};
 }
 
-Status run(const RunOptions& options) {
+Status run(const RunOptions& options, const Clock& clock) {
     SWATH_TRY(const auto scenario, Scenario::load(options.scenario));
     const std::vector<Experiment>& experiments = scenario.experiments();
 
-    const std::vector<Outcome> outcomes =
-        run_experiments(experiments, options.scenario.threads, [](std::size_t, const Outcome&) {});
+    std::size_t frames = 0;
+    for (const Experiment& e : experiments) frames += e.paths->size() * e.paths->front().size();
+    Progress progress(frames, "frames", false, clock, kPatience);
+    const std::vector<Outcome> outcomes = run_experiments(
+        experiments, options.scenario.threads, [](std::size_t, const Outcome&) {}, [&] { progress.step(); });
     std::cout << side_by_side(experiments, outcomes);
     if (!options.csv.empty()) {
         std::vector<Row> rows;
@@ -46,7 +52,9 @@ Status run(const RunOptions& options) {
     if (!options.timeline.empty()) {
         SWATH_TRY_VOID(save_timeline(experiments.front(), options.timeline));
         std::cout << "timeline: " << options.timeline
-                  << (options.timeline.ends_with(".json") ? " (open it in ui.perfetto.dev)\n" : "\n");
+                  << (options.timeline.ends_with(".json")
+                          ? " (open it in ui.perfetto.dev, or offline in a Chromium's chrome://tracing)\n"
+                          : "\n");
     }
     return {};
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "common/base/clock.h"
 #include "common/base/result.h"
 #include "sim/scenario/options.h"
 
@@ -14,7 +15,8 @@ struct RunOptions {
 
 // Errors say which options do not go together.
 Status check(const RunOptions& options);
-// `swath-sim run`: simulates one scenario and prints paper mode and full mode side by side.
-Status run(const RunOptions& options);
+// `swath-sim run`: simulates one scenario and prints paper mode and full mode side by side. What takes longer
+// than some seconds shows its progress.
+Status run(const RunOptions& options, const Clock& clock);
 
 }  // namespace swath::sim

@@ -9,6 +9,11 @@
 namespace swath::sim {
 namespace {
 
+constexpr std::string_view kWhichIsWhich =
+    "\npaper mode: the servers alone, as the paper counts, to compare with its tables. "
+    "full mode: client, network and\ndisplay at work too: the speedup to expect of a cluster with "
+    "this hardware (swath-sim hardware lists others).\n";
+
 // "-" if the algorithm has no such column.
 std::string cell(std::span<const Row> rows, std::string_view name) {
     const auto found = std::ranges::find(rows, name, &Row::column);
@@ -54,7 +59,7 @@ std::string side_by_side(std::span<const Experiment> experiments, std::span<cons
         }
         text += '\n';
     }
-    return text;
+    return text.append(kWhichIsWhich);
 }
 
 }  // namespace swath::sim

@@ -67,7 +67,8 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
             ->required()
             ->expected(1);
     app.add_option("--algorithm", algorithms_,
-                   "how to divide a frame, several with commas between: " + name_list<Algorithm>())
+                   "how to divide a frame, several with commas between: " + name_list<Algorithm>() +
+                       "\n(of which hybrid is the product's, the others are there to compare it with)")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->capture_default_str();
@@ -75,8 +76,11 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->capture_default_str();
-    values(app.add_option("--hardware", hardware_,
-                          "a profile's name (see swath-sim hardware) or a FILE.toml" + list))
+    values(app.add_option(
+               "--hardware", hardware_,
+               "a profile's name or a FILE.toml; the default is the paper's cluster, gbe-2026 machines of\n"
+               "today on gigabit Ethernet, swath-sim hardware lists all" +
+                   list))
         ->capture_default_str();
     values(app.add_option("--size", sizes_, "of the picture in pixels" + list))->capture_default_str();
     auto* depths =
@@ -90,12 +94,16 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
            "what objects are: cells of a uniform octree, or with sah of one by the surface area heuristic, "
            "about --objects of them [1500]")
         ->capture_default_str();
-    app.add_option("--path", path_.path, "of the camera: random (seeded, the paper's), orbit, or a FILE")
+    app.add_option("--path", path_.path,
+                   "of the camera: random (seeded, the paper's), orbit, or a FILE as of swath-client")
         ->capture_default_str();
     app.add_option("--frames", path_.frames, "of a path; full mode takes about ten to settle")
         ->capture_default_str()
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}));
-    app.add_option("--zoom", path_.zoom, "1: the model about fills the picture's height")
+    app.add_option(
+           "--zoom", path_.zoom,
+           "1: the longest side of the model's box is as high as the picture (random), or all of the\n"
+           "box fits in every frame (orbit)")
         ->capture_default_str()
         ->check(number_within(0.01, 100));
     app.add_option("--seed", path_.seed, "of the random path")->capture_default_str()->check(whole_number());

@@ -130,7 +130,7 @@ TEST_F(Simulator, WrongUsageIsOneLineAndLeavesNoFile) {
     expect_usage({"--octree-depth", "11"}, {"--octree-depth"});
     expect_usage({"--objects", "5", "--octree-depth", "3"}, {"--objects", "--octree-depth"});
     expect_one_line(sim({}), 2, {"subcommand"});
-    expect_one_line(sim({"walk"}), 2, {});
+    expect_one_line(sim({"walk"}), 2, {"walk"});
     expect_one_line(sim({"run"}), 2, {"MODEL"});
     expect_one_line(sim({"sweep", "--model", "builtin:knot:300"}), 2, {"--out"});
     expect_one_line(sim({"sweep", "--out", out}), 2, {"--model"});

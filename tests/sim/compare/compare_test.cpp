@@ -152,6 +152,36 @@ TEST_F(Compare, NamesTheFileAndWhatIsWrongWithIt) {
               "one.csv: another input is called table1 too; label it LABEL=FILE");
 }
 
+TEST_F(Compare, DrawsAllCurvesWhereNothingWasMeasured) {
+    const auto curves = curves_of({kPublished});
+    EXPECT_EQ(worth_drawing(curves), curves);
+}
+
+TEST_F(Compare, DrawsBesideARunWhatIsLikeItAndNear) {
+    std::string table = kHeader;
+    for (int speed = 1; speed <= 9; ++speed)
+        table += fmt::format("a,m{0},2,speedup,2\na,m{0},2,full_speedup,1.{0}\na,m{0},64,full_speedup,40\n",
+                             speed);
+    const auto curves =
+        curves_of({"sim=" + file("t.csv", table), kPublished, "real=" + timeline("one.csv", 1, 300),
+                   "real=" + timeline("two.csv", 2, 200)});
+    ASSERT_EQ(curves.size(), 9u * 2 + 9 + 1);
+    const auto drawn = worth_drawing(curves);
+    std::vector<std::string> names;
+    for (const Curve& curve : drawn) names.push_back(curve.name);
+    // Nearest to 1.5, in full mode; what is published begins at 8 servers, where nothing was measured.
+    EXPECT_THAT(names, ElementsAre("a, m3, full mode", "a, m4, full mode", "a, m5, full mode",
+                                   "a, m6, full mode", "a, m7, full mode", "a, m8, full mode", "real"));
+    EXPECT_THAT(drawn[2].points, ElementsAre(Pair(2, 1.5)));
+    EXPECT_TRUE(drawn.back().measured);
+
+    const std::string text = to_text(curves);
+    EXPECT_THAT(text, StartsWith("speed-up, servers:          1       2\n"
+                                 "sim: a, m3, full mode       -    1.30\n"));
+    EXPECT_THAT(text, HasSubstr("\nreal                     1.00    1.50  measured\n"
+                                "21 more are in compare.csv only\n"));
+}
+
 TEST_F(Compare, WritesATableThatItCanReadAndBothPictures) {
     const auto curves =
         curves_of({kPublished, "real=" + timeline("one.csv", 1, 100), "real=" + timeline("four.csv", 4, 40)});
