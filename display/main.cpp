@@ -1,11 +1,24 @@
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
+#include <cerrno>
+#include <cstring>
 #include <iostream>
 
 #include "common/base/allocator.h"
 #include "common/program/health.h"
 #include "common/program/program.h"
 #include "display/session/display.h"
+
+namespace {
+
+// Many programs like the page's usual port.
+std::string way_out(const swath::Error& error, swath::Address address) {
+    if (!error.message.ends_with(std::strerror(EADDRINUSE)) || ++address.port == 0) return {};
+    return "; try --view " +
+           (address.host == "127.0.0.1" ? std::to_string(address.port) : to_string(address));
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     using namespace swath;
@@ -67,7 +80,7 @@ int main(int argc, char** argv) {
     std::unique_ptr<ViewerHost> viewers;
     if (!view.empty()) {
         auto made = ViewerHost::make(web, clock);
-        if (!made) return run_error({"--view: " + made.error().message});
+        if (!made) return run_error({"--view: " + made.error().message + way_out(made.error(), web.listen)});
         viewers = std::move(*made);
         options.viewers = viewers.get();
     }

@@ -4,7 +4,7 @@
 import {Chart, hatch, nice_step} from './chart.js';
 import {css_colour, server_colour} from './colours.js';
 import {median, ms} from './format.js';
-import {critical_text, is_wait, phase_colour, server_number} from './phases.js';
+import {critical_text, is_wait, limit_of, phase_colour, server_number} from './phases.js';
 
 const kFramesKept = 160;
 const kRedrawMs = 60;  // while frames come
@@ -326,7 +326,8 @@ export class Gantt {
 export function critical_summary(frame, least = 0) {
     if (!frame?.critical?.length) return '';
     const took = frame.critical.at(-1).end - frame.critical[0].begin;
-    return `${ms(took)}: ${critical_text(frame.critical, least)}`;
+    const limit = limit_of(frame.critical);
+    return `${ms(took)}${limit && `, mostly ${limit}`}: ${critical_text(frame.critical, least)}`;
 }
 
 function extent(machines) {

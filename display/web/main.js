@@ -12,6 +12,7 @@ import {copy, save} from './keep.js';
 import {read_frame, read_plan, read_speedup} from './notes.js';
 import {kLayers} from './overlays.js';
 import {show_frames, show_legends, show_links, show_speedups} from './panels.js';
+import {advice} from './phases.js';
 import {Stage} from './stage.js';
 import {Tip} from './tip.js';
 import {Wishes} from './wishes.js';
@@ -163,8 +164,9 @@ function reset() {
 
 function why_not_steered() {
     const {connected, audience, session} = now;
-    if (!connected || !audience) return 'There is no connection';
-    if (!audience.session || !session) return 'There is no client yet';
+    if (!connected || !audience) return now.was_connected ? 'There is no connection' : 'Connecting';
+    if (!audience.session) return 'There is no client yet';
+    if (!session) return 'Connecting';
     if (!session.live) return `Cannot be steered: ${session.why ?? 'this run follows a camera path'}`;
     if (audience.lead !== audience.you) return `Viewer ${audience.lead} steers. “Steer” takes over.`;
     return '';
@@ -308,7 +310,7 @@ function update_panels() {
     const lines = streams.map((stream) => {
         const title = `Critical path${stage.split ? ` ${'AB'[stream]}` : ''}, `;
         const [short, whole] = [kLeastNamed, 0].map((least) => critical_summary(now.frames[stream], least));
-        return short && {short: title + short, whole: title + whole};
+        return short && {short: title + short, whole: `${title}${whole}. ${advice(now.frames[stream].critical)}`};
     });
     [...at('critical').children].forEach((element, place) => {
         element.hidden = place >= streams.length;
@@ -321,15 +323,17 @@ function update_panels() {
 
 function situation() {
     const {connected, audience, session, state} = now;
+    const connecting = {state: 'busy', text: 'Connecting', notice: ['Connecting', '']};
     if (!connected)
         return now.was_connected
             ? {state: 'bad', text: 'Connection lost; trying again',
                notice: ['Connection lost', 'Trying again by itself.']}
-            : {state: 'busy', text: 'Connecting', notice: ['Connecting', '']};
-    if (!audience) return {state: 'busy', text: 'Connecting'};
-    if (!audience.session || !session)
+            : connecting;
+    if (!audience) return connecting;
+    if (!audience.session)
         return {state: 'busy', text: 'Waiting for a client',
                 notice: ['Waiting for a client', 'Pictures come when one begins a run with this display.']};
+    if (!session) return connecting;
     const others = audience.viewers > 1 ? `; ${plural(audience.viewers, 'viewer')}` : '';
     if (!session.live)
         return {state: 'good', text: `${why_not_steered()}${others}`};
@@ -357,6 +361,9 @@ function refresh() {
     at('model').title = at('model').textContent;  // in full, if the line is cut
     document.title = session ? `${session.model} · Swath` : 'Swath';
     at('picture-0').setAttribute('aria-label', session ? `Picture of ${session.model}` : 'Picture');
+
+    // A picture that nobody steers has none.
+    document.querySelector('.lag').hidden = Boolean(session) && (!leads() || Boolean(values.path));
 
     const lead = at('lead');
         disable(lead, leads() ? 'You steer' : session?.live && audience ? '' : why_not_steered());

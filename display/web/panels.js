@@ -6,8 +6,8 @@ import {kSeries, speedups} from './curve.js';
 import {compact, decimal, ms, plural, times, whole} from './format.js';
 import {area} from './geometry.js';
 import {groups_of} from './overlays.js';
-import {kPhases, phase_colour, server_number} from './phases.js';
-import {fill_table} from './tables.js';
+import {kMeanings, kPhases, phase_colour, server_number} from './phases.js';
+import {fill_rows, fill_table} from './tables.js';
 
 const at = (id) => document.getElementById(id);
 
@@ -17,7 +17,12 @@ function set_text(id, text) {
 }
 
 export function show_legends() {
-    at('phases').replaceChildren(...kPhases.map((phase) => legend(phase, phase_colour(phase))));
+    at('phases').replaceChildren(...kPhases.map((phase) => {
+        const item = legend(phase, phase_colour(phase));
+        item.title = kMeanings.get(phase);
+        return item;
+    }));
+    fill_rows(at('help-phases').tBodies[0], [...kMeanings]);
     at('curve-key').replaceChildren(
         ...kSeries.map(({name, colour, line}) => legend(name, colour, line.length ? 'line dashed' : 'line')),
         legend('ideal', '--muted', 'line dotted'));
@@ -81,7 +86,7 @@ const short = (name) => server_number(name) ?? name;
 function show_others(note) {
     const others = note?.others ?? [];
     const table = at('predictions');
-    fill_table(table, ['Algorithm', 'Frame', 'Compared', 'Overlap', 'Swaps'], others.map((other) => [
+    fill_table(table, ['Algorithm', 'Frame', 'Compared', 'Overlap', 'Swapped'], others.map((other) => [
         other.algorithm,
         ms(other.frame),
         other.algorithm === note.algorithm ? 'in use' : `${other.ratio.toFixed(1)}× as long`,
@@ -100,6 +105,7 @@ function show_others(note) {
 export function show_links(streams) {
     const rows = [];
     let sent = 0;
+    let swapped = 0;
     for (const {plan, frame, title} of streams) {
         const groups = groups_of(plan);
         plan.tiles.forEach((tile, server) => {
@@ -107,6 +113,7 @@ export function show_links(streams) {
             const of = (end) => (plan.links ?? []).filter((link) => link[end] === server)
                 .reduce((sum, link) => sum + area(link.rectangles), 0);
             sent += of('from');
+            swapped += counters.swap_pixels ?? 0;
             rows.push({server, cells: [
                 `${title}${server}`,
                 compact(area(tile)),
@@ -117,7 +124,7 @@ export function show_links(streams) {
             ]});
         });
     }
-    set_text('links-note', streams.length ? `${compact(sent)} pixels in swaths` : '');
+    set_text('links-note', streams.length ? `${compact(sent)} pixels in swaths, ${compact(swapped)} swapped` : '');
     fill_table(at('links'),
         ['Server', 'Tile', 'Objects', 'Triangles', 'Sends', 'Receives'],
         rows.map(({cells}) => cells));

@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import {ink_on, server_colour} from '../../../display/web/colours.js';
 import {read_frame, read_plan, read_speedup} from '../../../display/web/notes.js';
-import {by_phase, critical_text, server_number} from '../../../display/web/phases.js';
+import {advice, by_phase, critical_text, limit_of, server_number} from '../../../display/web/phases.js';
 
 test('servers have the colours of the simulator\'s pictures', () => {
     assert.deepEqual([0, 1, 2, 15].map(server_colour),
@@ -61,4 +61,14 @@ test('only servers have a number', () => {
     assert.equal(server_number('server 12'), 12);
     assert.equal(server_number('display'), null);
     assert.equal(server_number('server x'), null);
+});
+
+test('a critical path says what it is mostly spent on, and what would help', () => {
+    const span = (phase, begin, end) => ({machine: 'server 0', phase, begin, end});
+    const drawing = [span('partition', 0, 1), span('wait', 1, 3), span('render', 3, 5), span('encode', 5, 8)];
+    assert.equal(limit_of(drawing), 'drawing');
+    assert.match(advice(drawing), /^The limit is drawing: more servers .* would help$/);
+    assert.equal(limit_of([span('render', 0, 1), span('assemble', 1, 2), span('encode', 2, 3)]), 'the display');
+    assert.equal(limit_of([span('something new', 0, 1)]), '');
+    assert.equal(advice([]), '');
 });
