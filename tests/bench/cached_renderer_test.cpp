@@ -7,7 +7,7 @@
 namespace swath::bench {
 namespace {
 
-// Every pixel has the number of draws so far as its colour, and the first run's object as its id.
+// Every pixel has the number of draws so far as its colour, and the first range's object as its id.
 class CountingRenderer final : public Renderer {
   public:
     explicit CountingRenderer(std::uint32_t& draws) : draws_(draws) {}

@@ -171,7 +171,7 @@ TEST_F(LeafCullTest, CountsWhatItDrawsAndMakesAsFewRunsAsThereCanBe) {
         ASSERT_EQ(list.visible.size(), group.size());
         std::vector<std::uint64_t> triangles(scene_.objects.size());
         for (std::size_t i = 0; i < list.ranges.size(); ++i) {
-            const TriangleRange& run = list.ranges[i];
+            const TriangleRange& range = list.ranges[i];
             const Object& object = scene_.objects[range.object];
             EXPECT_GE(range.first_triangle, object.first_triangle);
             EXPECT_LE(range.first_triangle + range.triangle_count,

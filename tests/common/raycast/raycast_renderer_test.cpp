@@ -112,7 +112,7 @@ TEST_P(RaycastRendererOf, DrawsTogetherWhatSeveralDrawAndComposite) {
                 std::vector<std::vector<TriangleRange>> groups(machines);
                 // An object is on one machine: of equal depths on two machines the composite knows only the
                 // objects.
-                for (const TriangleRange& range : all_) groups[next() % machines].push_back(run);
+                for (const TriangleRange& range : all_) groups[next() % machines].push_back(range);
                 const Rect screen = view.viewport();
                 const PixelFrame whole = draw(scene_, view, how);
                 PixelFrame frame = draw(*make_ray_caster(scene_, how), groups[0], view, screen);
@@ -188,18 +188,18 @@ TEST(RaycastRenderer, ReadsNothingThatItHasNotDrawnOrThatTheFrameDoesNotHold) {
         test::expect_reads_inside_only(*make_ray_caster(scene, how), all_of(scene), view_of(scene));
 }
 
-TEST(RaycastRenderer, DoesNotDrawARunOutsideOfItsObject) {
+TEST(RaycastRenderer, DoesNotDrawARangeOutsideOfItsObject) {
     const ObjectSet scene = test::builtin_scene("knot", 2000);
     const View view = view_of(scene);
     const TriangleRange good = all_of(scene)[1];
     for (const How& how : kHows) {
         const auto renderer = make_ray_caster(scene, how);
         for (const int what : {0, 1, 2}) {
-            TriangleRange run = good;
+            TriangleRange range = good;
             if (what == 0) ++range.triangle_count;
             if (what == 1) --range.first_triangle;
             if (what == 2) range.object = static_cast<ObjectId>(scene.objects.size());
-            EXPECT_THROW(static_cast<void>(renderer->draw(std::vector{run}, view, view.viewport())),
+            EXPECT_THROW(static_cast<void>(renderer->draw(std::vector{range}, view, view.viewport())),
                          CheckFailed);
         }
     }
@@ -447,7 +447,7 @@ TEST(Shadows, AreCastByWhatIsNotDrawn) {
     view.to_light = glm::normalize(glm::vec3(0.1f, 1, 0.2f));
     std::vector<TriangleRange> floor;
     for (const TriangleRange& range : all_of(scene))
-        if (scene.objects[range.object].box.max.y < 0.5f) floor.push_back(run);
+        if (scene.objects[range.object].box.max.y < 0.5f) floor.push_back(range);
     ASSERT_LT(floor.size(), scene.objects.size());
     for (const bool dynamic : {false, true}) {
         const auto renderer = make_ray_caster(scene, {true, dynamic, 1});

@@ -202,13 +202,13 @@ TEST_F(RendererTest, LeavesOutTheTrianglesBetweenRuns) {
     EXPECT_EQ(compare(frame, whole, screen).pixels, 0);
 }
 
-TEST_F(RendererTest, DoesNotDrawARunOutsideOfItsObject) {
-    TriangleRange run = all_[1];
+TEST_F(RendererTest, DoesNotDrawARangeOutsideOfItsObject) {
+    TriangleRange range = all_[1];
     ++range.triangle_count;
-    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{run}, view_, view_.viewport())), CheckFailed);
-    run = all_[1];
+    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{range}, view_, view_.viewport())), CheckFailed);
+    range = all_[1];
     --range.first_triangle;
-    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{run}, view_, view_.viewport())), CheckFailed);
+    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{range}, view_, view_.viewport())), CheckFailed);
 }
 
 TEST_F(RendererTest, DrawsAPictureOfOnePixel) {
@@ -237,7 +237,7 @@ class TiesTest : public RendererTest {
     // Two machines draw disjoint groups; the second's pixels go to the first.
     void expect_composite_is_exact(const std::function<bool(ObjectId)>& is_first) {
         std::vector<TriangleRange> groups[2];
-        for (const TriangleRange& range : all_) groups[is_first(range.object) ? 0 : 1].push_back(run);
+        for (const TriangleRange& range : all_) groups[is_first(range.object) ? 0 : 1].push_back(range);
         const Rect screen = view_.viewport();
         const PixelFrame whole = draw(*renderer_, all_, view_, screen);
         PixelFrame first = draw(*renderer_, groups[0], view_, screen);
