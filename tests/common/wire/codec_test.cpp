@@ -116,7 +116,7 @@ class PrefixTest : public testing::Test {
 };
 
 TEST_F(PrefixTest, HasTheseBytes) {
-    const std::array<std::uint8_t, kPrefixBytes> expected{'S',  'W',  'T',  'H',  5,    0,    0,    0,
+    const std::array<std::uint8_t, kPrefixBytes> expected{'S',  'W',  'T',  'H',  6,    0,    0,    0,
                                                           0x04, 0x03, 0x02, 0x01, 0x08, 0x07, 0x06, 0x05};
     EXPECT_EQ(encode_prefix({0x01020304, 0x05060708}), expected);
     EXPECT_EQ(decode_prefix(expected, {0xffffffff, 0xffffffff}), (Prefix{0x01020304, 0x05060708}));
@@ -142,10 +142,10 @@ TEST_F(PrefixTest, OfAnotherProtocolIsRefused) {
 
 TEST_F(PrefixTest, OfAnotherVersionNamesBoth) {
     bytes_[4] = 1;
-    EXPECT_EQ(refused(bytes_), "speaks version 1 of the protocol, this program speaks 5");
+    EXPECT_EQ(refused(bytes_), "speaks version 1 of the protocol, this program speaks 6");
     bytes_[4] = 2;
     bytes_[5] = 1;
-    EXPECT_EQ(refused(bytes_), "speaks version 258 of the protocol, this program speaks 5");
+    EXPECT_EQ(refused(bytes_), "speaks version 258 of the protocol, this program speaks 6");
 }
 
 TEST_F(PrefixTest, WithBitsWhereNoneBelongIsRefused) {
@@ -161,7 +161,7 @@ TEST(Head, OfTheWorkedExampleIsWhatTheDocumentShows) {
     EXPECT_EQ(encode_head(Bye{}), std::string("\x92\x01\x00", 3));
     const auto prefix = encode_prefix({static_cast<std::uint32_t>(swath.size()), 33});
     EXPECT_EQ(std::string(prefix.begin(), prefix.end()),
-              std::string("SWTH\x05\0\0\0\x0a\0\0\0\x21\0\0\0", 16));
+              std::string("SWTH\x06\0\0\0\x0a\0\0\0\x21\0\0\0", 16));
 }
 
 }  // namespace

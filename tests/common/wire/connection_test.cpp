@@ -188,7 +188,7 @@ TEST_F(StrangerTest, OfAnotherVersionIsToldBothVersions) {
     std::string other = hello();
     other[4] = 1;
     stranger_->send(other);
-    expect_refusal("speaks version 1 of the protocol, this program speaks 5");
+    expect_refusal("speaks version 1 of the protocol, this program speaks 6");
 }
 
 TEST_F(StrangerTest, WhoSpeaksAnotherProtocolIsRefused) {
