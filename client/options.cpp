@@ -105,16 +105,14 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     auto* viewer =
         app.add_option(
                "--view", view,
-               "live: a page shows and steers it, with --local at this [HOST:]PORT [8080]. With --display,\n"
-               "start that one with --view HOST:PORT, and say --view here without a port")
+               "live: a page at [HOST:]PORT [8080] shows and steers it; with --display at its --view")
             ->expected(0, 1)
             ->excludes(single);
     app.add_option("--view-max-size", max_view, "largest picture that viewers may ask for")
         ->capture_default_str()
         ->needs(viewer);
     app.add_option("--algorithm", algorithm,
-                   "how to divide a frame: " + name_list<Algorithm>() +
-                       ". Take hybrid;\nthe others are published ones to compare it with")
+                   "how to divide a frame: " + name_list<Algorithm>() + "; hybrid, unless to compare")
         ->capture_default_str();
     auto* draw_with =
         app.add_option("--renderer", renderer,
@@ -123,8 +121,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     for (const FlagOption& one : kFlagOptions) app.add_flag(one.name, options.draw.flags.*one.flag, one.help);
     app.add_option(
            "--cull", cull,
-           "how servers find what they draw: " + name_list<CullAlgorithm>() +
-               ". Take wide; a2ssb and adsb are\npublished ones to compare it with, none draws all of a part")
+           "how servers find what they draw: " + name_list<CullAlgorithm>() + "; wide, unless to compare")
         ->capture_default_str();
     app.add_option("--objects-by", objects_by,
                    "objects are cells of a uniform octree, or of a SAH octree: uniform, sah")
@@ -146,16 +143,13 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
                             ->excludes(viewer);
     app.add_option(
            "--path", options.path,
-           "of the camera: orbit, random (seeded, as in the paper), or a FILE with a line a frame: eye,\n"
-           "target, up and vertical angle in degrees, ten numbers, as 0 0 5  0 0 0  0 1 0  40")
+           "orbit, random (as in the paper), or a FILE: a line a frame of eye, target, up, fov_degrees")
         ->capture_default_str();
     app.add_option("--seed", options.seed, "of the random path")
         ->capture_default_str()
         ->check(whole_number());
-    app.add_option(
-           "--zoom", options.zoom,
-           "1: the model's bounding box fits in every frame (orbit), or the longest side of the box is\n"
-           "as high as the picture (random); 2: twice as near")
+    app.add_option("--zoom", options.zoom,
+                   "1: the model's box fits in every frame (orbit) or is as high as the picture (random)")
         ->capture_default_str()
         ->check(number_within(0.01, 100));
     app.add_option("--in-flight", options.in_flight, "frames begun and not complete at a time")
@@ -165,16 +159,14 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     add_trees_option(app, options.cuda)->excludes(remote);
     app.add_option(
            "--out", options.out,
-           "folder for the pictures, frame_0000.png and so on, or the file of the only one, x.png or\n"
-           "x.jpg [no pictures are kept]")
+           "folder for frame_0000.png and so on, or x.png, x.jpg for the only one [none are kept]")
         ->excludes(viewer);
     auto* picture_format = app.add_option("--format", format, "of the pictures: png (exact) or jpeg")
                                ->capture_default_str()
                                ->check(CLI::IsMember({"png", "jpeg"}))
                                ->excludes(viewer);
     app.add_option("--timeline", options.timeline,
-                   "what every machine did when: FILE.csv, a table, or FILE.json for ui.perfetto.dev or,\n"
-                   "without a network, a Chromium's chrome://tracing");
+                   "what every machine did when: FILE.csv, a table, or FILE.json for ui.perfetto.dev");
     app.add_option("--connect-s", options.connect_patience_s, "how long to try to reach servers and display")
         ->capture_default_str()
         ->check(number_within(0.1, 3600));
