@@ -82,7 +82,7 @@ std::vector<Block> read_commands(const fs::path& readme) {
         if (continued)
             blocks.back().back().text += text;
         else
-            blocks.back().push_back({number, text, comment});
+            blocks.back().push_back({number, text, {}});
         blocks.back().back().comment += comment;
     }
     std::erase_if(blocks, [](const Block& block) { return block.empty(); });
