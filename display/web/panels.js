@@ -86,7 +86,7 @@ const short = (name) => server_number(name) ?? name;
 function show_others(note) {
     const others = note?.others ?? [];
     const table = at('predictions');
-    fill_table(table, ['Algorithm', 'Frame', 'Compared', 'Overlap', 'Swapped'], others.map((other) => [
+    fill_table(table, ['Algorithm', 'Frame', 'Compared', 'Overlap', 'Swaps'], others.map((other) => [
         other.algorithm,
         ms(other.frame),
         other.algorithm === note.algorithm ? 'in use' : `${other.ratio.toFixed(1)}× as long`,
