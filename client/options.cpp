@@ -103,9 +103,8 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     std::string max_view =
         fmt::format("{}x{}", options.view_limits.max_width, options.view_limits.max_height);
     auto* viewer =
-        app.add_option(
-               "--view", view,
-               "live: a page at [HOST:]PORT [8080] shows and steers it; with --display at its --view")
+        app.add_option("--view", view,
+                       "live: a page at [HOST:]PORT [8080] shows and steers it; with --display at its --view")
             ->expected(0, 1)
             ->excludes(single);
     app.add_option("--view-max-size", max_view, "largest picture that viewers may ask for")
@@ -157,9 +156,8 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->check(CLI::Range(1, 8));
     add_threads_option(app, options.threads);
     add_trees_option(app, options.cuda)->excludes(remote);
-    app.add_option(
-           "--out", options.out,
-           "folder for frame_0000.png and so on, or x.png, x.jpg for the only one [none are kept]")
+    app.add_option("--out", options.out,
+                   "folder for frame_0000.png and so on, or x.png, x.jpg for the only one [none are kept]")
         ->excludes(viewer);
     auto* picture_format = app.add_option("--format", format, "of the pictures: png (exact) or jpeg")
                                ->capture_default_str()
@@ -173,7 +171,8 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     add_program_options(app, options.program, options.timing);
     app.footer("\nBuilt-in models, about a million triangles each unless :TRIANGLES says otherwise:\n" +
                builtin_list() + "\nExit codes: 0 done, 1 failed, 2 wrong usage.");
-    if (const auto code = parse_options(app, argc, argv, renderers_here)) return tl::unexpected(*code);
+    if (const auto code = parse_options(app, argc, argv, [] { return protocol_here() + renderers_here(); }))
+        return tl::unexpected(*code);
 
     const auto refuse = [](const Error& error) { return tl::unexpected(usage_error(error)); };
     const auto parsed_size = parse_size("--size", size);

@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
         ->needs(viewed);
     add_program_options(app, program, options.timing);
     add_waiting_options(app, program);
-    if (const auto code = parse_options(app, argc, argv)) return *code;
+    if (const auto code = parse_options(app, argc, argv, protocol_here)) return *code;
     start_log("swath-display", program.least_logged());
 
     const auto address = parse_address(listen);

@@ -36,7 +36,8 @@ int main(int argc, char** argv) {
     add_trees_option(app, cuda);
     add_program_options(app, program, options.timing);
     add_waiting_options(app, program);
-    if (const auto code = parse_options(app, argc, argv, renderers_here)) return *code;
+    if (const auto code = parse_options(app, argc, argv, [] { return protocol_here() + renderers_here(); }))
+        return *code;
     start_log("swath-server", program.least_logged());
 
     const auto address = parse_address(listen);

@@ -313,7 +313,6 @@ Status ClusterRun::on_report(std::size_t at, const Report& report, Nanoseconds c
     return perform(actions);
 }
 
-
 Status ClusterRun::on_audience(const Audience& audience) {
     broadcast_.on_viewers(audience.viewers);
     if (!live_) return {};

@@ -353,7 +353,6 @@ void Machines::release() {
     }
 }
 
-
 Status Machines::reconfigure(const Drawing& drawing, std::size_t objects, Reconfigured done) {
     next_drawing_ = drawing;
     next_objects_ = objects;

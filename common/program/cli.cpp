@@ -11,7 +11,6 @@
 
 #include "common/image/picture.h"
 #include "common/program/version.h"
-#include "common/wire/codec.h"
 
 namespace swath {
 
@@ -22,10 +21,9 @@ std::optional<int> parse_options(CLI::App& app, int argc, char** argv,
         "--version",
         [&] {
             const std::string from = commit().empty() ? "" : fmt::format(", commit {}", commit());
-            return fmt::format("{} {}{}\nprotocol   {}\n{}", program, version(), from, kWireVersion,
-                               about ? about() : "");
+            return fmt::format("{} {}{}\n{}", program, version(), from, about ? about() : "");
         },
-        "version, commit, protocol, and what can draw here");
+        "version, commit, and what the program speaks and draws with");
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

@@ -1,5 +1,6 @@
 #include "common/program/program.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,9 +14,12 @@
 #include <thread>
 
 #include "common/base/log.h"
+#include "common/wire/codec.h"
 
 namespace swath {
 namespace asio = boost::asio;
+
+std::string protocol_here() { return fmt::format("protocol   {}\n", kWireVersion); }
 
 void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& timing) {
     app.add_flag("--quiet", options.quiet, "log errors only, and show no progress");

@@ -14,6 +14,9 @@ namespace swath {
 
 // What the mains of the networked programs have in common, besides cli.h.
 
+// A line of --version: the protocol spoken, which differs between programs that cannot work together.
+std::string protocol_here();
+
 struct ProgramOptions {
     LogLevel least_logged() const { return quiet ? LogLevel::kError : LogLevel::kInfo; }
 

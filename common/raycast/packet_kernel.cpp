@@ -1,14 +1,15 @@
 #include "common/raycast/packet_kernel.h"
 
 #include "common/base/lanes/lanes.h"
+#include "common/octree/sah/sah_settings.h"
 
 namespace swath::SWATH_KERNEL {
 namespace {
 
 constexpr std::uint32_t kAllLanes = 0xffff;
 constexpr float kFar = 3e38f;
-// Deep enough for every SAH tree: an octree node leaves seven children waiting and is one of at most 48 cuts.
-constexpr int kStack = 7 * 48 + 2;
+// Deep enough for every SAH tree: a cut leaves at most seven children waiting, those of an octree node.
+constexpr int kStack = 7 * static_cast<int>(kMaxSahDepth) + 2;
 
 enum class Want { kNearest, kNearestByDepth, kAny };
 

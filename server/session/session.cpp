@@ -79,7 +79,6 @@ Status ServerSession::on_message(const std::shared_ptr<Connection>& from, Messag
     return fail("{} is not expected from a display", name(message));
 }
 
-
 Status ServerSession::from_client(Message&& message, Buffer&& body) {
     if (const auto* setup = std::get_if<ServerSetup>(&message)) return on_setup(*setup);
     if (const auto* part = std::get_if<ModelPart>(&message)) return on_model_part(*part, body);

@@ -288,7 +288,12 @@ Status bench_steering(Figures& figures, const Effort& effort, const Programs& pr
     for (int round = 0; round <= effort.repetitions; ++round) {
         Lag lag;
         const auto start = Steady::now();
-        for (auto next = start; Steady::now() - start < length;) {
+        // A busy machine may need longer for its first picture.
+        const auto goes_on = [&] {
+            const auto passed = Steady::now() - start;
+            return passed < length || (passed < kPatience && lag.beyond_ms().empty());
+        };
+        for (auto next = start; goes_on();) {
             if (const auto now = Steady::now(); now >= next) {
                 const double angle = 0.01 * static_cast<double>(++id);
                 const double dx = home[0].get<double>() - home[3].get<double>();
@@ -303,11 +308,12 @@ Status bench_steering(Figures& figures, const Effort& effort, const Programs& pr
             const auto wait = std::chrono::ceil<std::chrono::milliseconds>(next - Steady::now());
             if (const auto heard = page->hear(std::max(wait, std::chrono::milliseconds(0)))) lag.hear(*heard);
         }
+        const std::chrono::duration<double> passed = Steady::now() - start;
         if (!page->connected()) return fail("the display has closed the connection");
         if (round == 0 && !effort.smoke) continue;
         const auto beyond = lag.beyond_ms();
         if (beyond.empty()) return fail("no picture came of {} wishes", id);
-        fps.push_back(static_cast<double>(lag.pictures()) / std::chrono::duration<double>(length).count());
+        fps.push_back(static_cast<double>(lag.pictures()) / passed.count());
         lag_ms.push_back(median(beyond));
         frame_ms.push_back(median(lag.frame_ms()));
     }

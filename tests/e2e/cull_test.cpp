@@ -19,10 +19,10 @@ class Culling : public EndToEnd {
         for (const std::string& cull : kCulls) {
             expect_same_pictures(expected, render(arguments + Arguments{"--single", "--cull", cull}));
             for (const std::string& algorithm : kEveryAlgorithm) {
-                const std::string n = std::to_string(servers[turn++ % servers.size()]);
+                const int n = servers[turn++ % servers.size()];
                 SCOPED_TRACE(fmt::format("{} with {} servers that cull by {}", algorithm, n, cull));
-                expect_same_pictures(expected, render(arguments + Arguments{"--local", n, "--algorithm",
-                                                                            algorithm, "--cull", cull}));
+                expect_same_pictures(
+                    expected, render_on(n, arguments + Arguments{"--algorithm", algorithm, "--cull", cull}));
             }
         }
     }
@@ -134,7 +134,7 @@ TEST_F(ManyMaterials, LookTheSameFromEveryClusterAndHoweverFinelyTheyAreCut) {
         SCOPED_TRACE(depth);
         expect_same_pictures(expected, render(cut + Arguments{"--single"}));
         for (const char* algorithm : {"hybrid", "mahd"})
-            expect_same_pictures(expected, render(cut + Arguments{"--local", "4", "--algorithm", algorithm}));
+            expect_same_pictures(expected, render_on(4, cut + Arguments{"--algorithm", algorithm}));
     }
     compare(run, {3});
 }

@@ -13,8 +13,7 @@ class RealModel : public EndToEnd {
         expect_not_only({16, 18, 24}, expected);
         const auto compare_one = [&](const char* algorithm, int n) {
             SCOPED_TRACE(fmt::format("{} with {} servers", algorithm, n));
-            expect_same_pictures(expected, render(arguments + Arguments{"--local", std::to_string(n),
-                                                                        "--algorithm", algorithm}));
+            expect_same_pictures(expected, render_on(n, arguments + Arguments{"--algorithm", algorithm}));
         };
         for (const char* algorithm : {"hybrid", "sort-last"})
             for (const int n : servers) compare_one(algorithm, n);

@@ -80,27 +80,34 @@ const std::vector<Scene> kScenes{
 class ClusterPictures : public EndToEnd, public testing::WithParamInterface<Scene> {
   protected:
     // Renders with every number of servers, with one algorithm each, in turn.
-    void compare(const std::vector<std::string>& algorithms) {
+    void compare(const std::string& expected, const Arguments& arguments,
+                 const std::vector<std::string>& algorithms) {
         const Scene& scene = GetParam();
-        Arguments arguments = scene.arguments;
-        if (!scene.cameras.empty())
-            arguments = arguments + Arguments{"--path", files_.write("cameras.txt", scene.cameras)};
-        const std::string expected = render(arguments + Arguments{"--single"});
-        if (scene.name != "OnePixel") expect_not_only({16, 18, 24}, expected);
         for (std::size_t i = 0; i < scene.servers.size(); ++i) {
             const int servers = scene.servers[i];
             const std::string& algorithm = algorithms[i % algorithms.size()];
             SCOPED_TRACE(fmt::format("{} with {} servers", algorithm, servers));
-            expect_same_pictures(expected, render(arguments + Arguments{"--local", std::to_string(servers),
-                                                                        "--algorithm", algorithm}));
+            expect_same_pictures(expected,
+                                 render_on(servers, arguments + Arguments{"--algorithm", algorithm}));
         }
     }
 };
 
-TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithTheHybridAlgorithm) { compare({"hybrid"}); }
-TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithSortLast) { compare({"sort-last"}); }
-// These two differ only in where they cut, so they share one test's time.
-TEST_P(ClusterPictures, EqualThoseOfASingleProcessWithSortFirst) { compare({"mahd", "kd-split"}); }
+TEST_P(ClusterPictures, EqualThoseOfASingleProcess) {
+    const Scene& scene = GetParam();
+    Arguments arguments = scene.arguments;
+    if (!scene.cameras.empty())
+        arguments = arguments + Arguments{"--path", files_.write("cameras.txt", scene.cameras)};
+    const std::string expected = render(arguments + Arguments{"--single"});
+    if (scene.name != "OnePixel") expect_not_only({16, 18, 24}, expected);
+    compare(expected, arguments, {"hybrid"});
+    compare(expected, arguments, {"sort-last"});
+    // These two differ only in where they cut.
+    compare(expected, arguments, {"mahd", "kd-split"});
+    // The same from servers of its own.
+    expect_same_pictures(expected,
+                         render(arguments + Arguments{"--local", std::to_string(scene.servers.front())}));
+}
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ClusterPictures, testing::ValuesIn(kScenes),
                          [](const auto& scene) { return scene.param.name; });
@@ -118,9 +125,9 @@ TEST_F(Pictures, AreBackgroundWhenTheCameraLooksAway) {
     const std::string expected = render(arguments + Arguments{"--single"});
     expect_only({0x20, 0x40, 0x60}, expected);
     for (const char* algorithm : {"hybrid", "mahd", "kd-split", "sort-last"})
-        for (const char* servers : {"1", "4"})
+        for (const int servers : {1, 4})
             expect_same_pictures(expected,
-                                 render(arguments + Arguments{"--local", servers, "--algorithm", algorithm}));
+                                 render_on(servers, arguments + Arguments{"--algorithm", algorithm}));
 }
 
 TEST_F(Pictures, AreTheSameFromOsmesaAndEgl) {
@@ -171,7 +178,7 @@ TEST_F(Pictures, DoNotDependOnHowFinelyAModelIsCut) {
           Arguments{"--octree-depth", "2"}, Arguments{"--octree-depth", "10"}}) {
         SCOPED_TRACE(fmt::format("{} {}", cut[0], cut[1]));
         expect_same_pictures(expected, render(arguments + cut + Arguments{"--single"}));
-        expect_same_pictures(expected, render(arguments + cut + Arguments{"--local", "3"}));
+        expect_same_pictures(expected, render_on(3, arguments + cut));
     }
 }
 

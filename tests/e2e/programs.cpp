@@ -15,6 +15,8 @@
 namespace swath::test {
 namespace {
 
+const Arguments kListen{"--listen", "127.0.0.1:0"};
+
 Picture picture_in(const std::filesystem::path& file) {
     const std::string bytes = contents(file);
     auto picture = decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
@@ -54,13 +56,23 @@ Arguments operator+(Arguments left, const Arguments& right) {
 
 EndToEnd::EndToEnd() { adopt_orphans(); }
 
+std::string EndToEnd::outlasting_;
+
 EndToEnd::~EndToEnd() {
-    for (const pid_t pid : living_descendants(::getpid())) ::kill(pid, SIGKILL);
+    for (const pid_t pid : left_over()) ::kill(pid, SIGKILL);
+}
+
+std::vector<pid_t> EndToEnd::left_over() {
+    std::vector<pid_t> left = living_descendants(::getpid());
+    if (!outlasting_.empty())
+        std::erase_if(left, [](pid_t pid) { return program_of(pid).starts_with(outlasting_); });
+    return left;
 }
 
 void EndToEnd::TearDown() {
+    if (cluster_) cluster_->stop();
     std::vector<std::string> left;
-    for (const pid_t pid : living_descendants(::getpid())) left.push_back(program_of(pid));
+    for (const pid_t pid : left_over()) left.push_back(program_of(pid));
     EXPECT_TRUE(left.empty()) << "still running: " << fmt::format("{}", fmt::join(left, ", "));
 }
 
@@ -91,21 +103,52 @@ std::string EndToEnd::render(const Arguments& arguments) {
     return folder;
 }
 
+std::string EndToEnd::render_on(int servers, const Arguments& arguments) {
+    if (!cluster_)
+        cluster_ = std::make_unique<RemoteCluster>(
+            [this](const std::string& program, const Arguments& all) { return start(program, all); },
+            servers);
+    cluster_->grow(servers);
+    Arguments all = arguments + cluster_->flags(static_cast<std::size_t>(servers));
+    // The client would start OpenGL only to see that it works.
+    if (std::find(all.begin(), all.end(), "--renderer") == all.end())
+        all = all + Arguments{"--renderer", std::string(name_of(gl_here()))};
+    return render(all);
+}
+
 std::string listening_address(Process& process) {
     static constexpr std::string_view kAnnouncement = "listening ";
     return process.wait_for_line("listening 127.0.0.1:", kPatience).substr(kAnnouncement.size());
 }
 
-RemoteCluster::RemoteCluster(const Start& start, int servers) {
-    const Arguments listen{"--listen", "127.0.0.1:0"};
-    display_ = start("swath-display", listen);
-    for (int i = 0; i < servers; ++i) servers_.push_back(start("swath-server", listen));
+RemoteCluster::RemoteCluster(Start start, int servers)
+    : start_(std::move(start)), display_(start_("swath-display", kListen)) {
+    grow(servers);
     display_address_ = listening_address(*display_);
-    for (const auto& server : servers_) server_addresses_.push_back(listening_address(*server));
 }
 
-Arguments RemoteCluster::flags() const {
-    return {"--servers", fmt::format("{}", fmt::join(server_addresses_, ",")), "--display", display_address_};
+void RemoteCluster::grow(int servers) {
+    while (servers_.size() < static_cast<std::size_t>(servers))
+        servers_.push_back(start_("swath-server", kListen));
+    for (std::size_t i = server_addresses_.size(); i < servers_.size(); ++i)
+        server_addresses_.push_back(listening_address(*servers_[i]));
+}
+
+void RemoteCluster::stop() {
+    std::vector<Process*> all{display_.get()};
+    for (const auto& server : servers_) all.push_back(server.get());
+    for (const Process* process : all) process->signal(SIGTERM);
+    for (Process* process : all) {
+        const Finished finished = process->wait(kPatience);
+        expect_no_crash(finished);
+        EXPECT_EQ(finished.exit_code, 0) << "signal " << finished.signal << '\n' << finished.err;
+    }
+}
+
+Arguments RemoteCluster::flags(std::size_t servers) const {
+    const auto end = server_addresses_.begin() + static_cast<std::ptrdiff_t>(servers);
+    return {"--servers", fmt::format("{}", fmt::join(server_addresses_.begin(), end, ",")), "--display",
+            display_address_};
 }
 
 std::vector<std::string> file_names(const std::filesystem::path& folder) {

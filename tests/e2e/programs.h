@@ -23,6 +23,8 @@ inline constexpr std::chrono::milliseconds kPatience = kSlowdown * std::chrono::
 using Arguments = std::vector<std::string>;
 Arguments operator+(Arguments left, const Arguments& right);
 
+class RemoteCluster;
+
 // A folder for the test's files, the programs, and at the end a check that no process is left.
 class EndToEnd : public testing::Test {
   protected:
@@ -40,29 +42,43 @@ class EndToEnd : public testing::Test {
     Finished client(const Arguments& arguments) const { return run("swath-client", arguments); }
     // Expects exit code 0; returns the folder of the pictures, a new one.
     std::string render(const Arguments& arguments);
+    // The same on so many servers, which stay for the calls that follow: starting OpenGL in ten programs takes
+    // longer than most of what tests draw.
+    std::string render_on(int servers, const Arguments& arguments);
 
     TemporaryFolder files_;
+    static std::string outlasting_;         // programs whose names begin so may outlast a test; empty: none
     std::vector<std::string> environment_;  // of what is started from now on, "NAME=VALUE"
 
   private:
+    static std::vector<pid_t> left_over();
+
     int renders_ = 0;
+    std::unique_ptr<RemoteCluster> cluster_;
 };
 
-// A swath-display and swath-servers as somebody would start them by hand, each on a free port. Server i keeps
-// its cache in `folder`/cache_i and runs in `folder`. All end with the object.
+// A swath-display and swath-servers as somebody would start them by hand, each on a free port. All end with
+// the object.
 class RemoteCluster {
   public:
     using Start = std::function<std::unique_ptr<Process>(const std::string&, const Arguments&)>;
-    RemoteCluster(const Start& start, int servers);
+    RemoteCluster(Start start, int servers);
 
-    // The client's flags for this cluster.
-    Arguments flags() const;
+    // Starts servers until there are so many.
+    void grow(int servers);
+    // Tells all to end, and expects that they do so without a complaint.
+    void stop();
+
+    // The client's flags for this cluster, or for its first servers.
+    Arguments flags() const { return flags(servers_.size()); }
+    Arguments flags(std::size_t servers) const;
     Process& server(std::size_t i) { return *servers_.at(i); }
     Process& display() { return *display_; }
     const std::string& server_address(std::size_t i) const { return server_addresses_.at(i); }
     const std::string& display_address() const { return display_address_; }
 
   private:
+    Start start_;
     std::unique_ptr<Process> display_;
     std::string display_address_;
     std::vector<std::unique_ptr<Process>> servers_;

@@ -32,8 +32,7 @@ class Raycast : public EndToEnd {
             for (const char* algorithm : kAlgorithms) {
                 if (turn++ % every != 0) continue;
                 SCOPED_TRACE(fmt::format("{} with {} servers", algorithm, servers));
-                expect_same_pictures(expected, render(run + Arguments{"--local", std::to_string(servers),
-                                                                      "--algorithm", algorithm}));
+                expect_same_pictures(expected, render_on(servers, run + Arguments{"--algorithm", algorithm}));
             }
     }
 };
@@ -166,7 +165,7 @@ TEST_F(Raycast, PicturesOfBothKindsOfServerAreNearlyTheRasterisersPictures) {
         EXPECT_LT(by_rays, 0.001) << model;
         for (const char* algorithm : kAlgorithms) {
             const std::string mixed =
-                render(run + Arguments{"--local", "3", "--renderer", both, "--algorithm", algorithm});
+                render_on(3, run + Arguments{"--renderer", both, "--algorithm", algorithm});
             const double share = share_of_different(expected, mixed, 4);
             EXPECT_LT(share, 0.001) << model << ' ' << algorithm;
         }

@@ -33,6 +33,8 @@ struct SahSettings {
     std::size_t max_bytes = std::size_t{64} << 30;
     bool operator==(const SahSettings&) const = default;
 };
+// The most cuts on a path from the root; an octree node counts as one.
+inline constexpr std::uint32_t kMaxSahDepth = 48;
 inline constexpr std::uint32_t kMaxBins = 256;
 inline constexpr std::uint32_t kMaxGrain = 1u << 14;
 inline constexpr float kMaxSahCoordinate = 1e18f;  // so that its square times a number of triangles is finite

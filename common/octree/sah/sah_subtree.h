@@ -20,9 +20,6 @@ struct SahScratch {
     std::uint32_t* bins;  // kBinWords * (max_bins + 1)
 };
 
-// The most cuts on a path from the root; an octree node counts as one.
-inline constexpr std::uint32_t kMaxSahDepth = 48;
-
 struct SahPending {
     SahBox box;
     std::uint32_t node;

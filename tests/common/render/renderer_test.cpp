@@ -205,10 +205,12 @@ TEST_F(RendererTest, LeavesOutTheTrianglesBetweenRuns) {
 TEST_F(RendererTest, DoesNotDrawARangeOutsideOfItsObject) {
     TriangleRange range = all_[1];
     ++range.triangle_count;
-    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{range}, view_, view_.viewport())), CheckFailed);
+    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{range}, view_, view_.viewport())),
+                 CheckFailed);
     range = all_[1];
     --range.first_triangle;
-    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{range}, view_, view_.viewport())), CheckFailed);
+    EXPECT_THROW(static_cast<void>(renderer_->draw(std::vector{range}, view_, view_.viewport())),
+                 CheckFailed);
 }
 
 TEST_F(RendererTest, DrawsAPictureOfOnePixel) {

@@ -5,16 +5,31 @@
 
 namespace swath::test {
 
+std::unique_ptr<TemporaryFolder> BrowserTest::browser_files_;
+std::unique_ptr<Browser> BrowserTest::browser_;
+
 void BrowserTest::SetUp() {
     if (const std::string missing = Browser::missing(); !missing.empty()) GTEST_SKIP() << missing;
-    const std::filesystem::path folder = files_.path_of("browser");
-    std::filesystem::create_directory(folder);
-    browser_ = std::make_unique<Browser>(folder);
+    outlasting_ = "chrom";
+    if (browser_) {
+        browser_->begin_anew();
+    } else {
+        browser_files_ = std::make_unique<TemporaryFolder>();
+        const std::filesystem::path folder = browser_files_->path_of("browser");
+        std::filesystem::create_directory(folder);
+        browser_ = std::make_unique<Browser>(folder);
+    }
+    on_page_ = true;
     browser_->set_viewport({});
 }
 
-void BrowserTest::close_browser() {
-    if (browser_) {
+void BrowserTest::TearDownTestSuite() {
+    browser_.reset();
+    browser_files_.reset();
+}
+
+void BrowserTest::leave_page() {
+    if (on_page_) {
         const auto* test = testing::UnitTest::GetInstance()->current_test_info();
         if (HasFailure())
             keep_screenshot(std::string("failed_") + test->test_suite_name() + "." + test->name());
@@ -24,11 +39,13 @@ void BrowserTest::close_browser() {
                             [&](const auto& words) { return error.find(words) != std::string::npos; }))
                 << "on the browser's console: " << error;
     }
-    browser_.reset();
+    if (on_page_) browser().open("about:blank");
+    on_page_ = false;
 }
 
 void BrowserTest::TearDown() {
-    close_browser();
+    leave_page();
+    if (HasFailure()) TearDownTestSuite();
     EndToEnd::TearDown();
 }
 

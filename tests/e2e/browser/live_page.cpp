@@ -50,7 +50,7 @@ void LivePage::end_client() {
 }
 
 void LivePage::TearDown() {
-    close_browser();
+    leave_page();
     client_.reset();
     BrowserTest::TearDown();
 }

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 class LiveViewers : public LivePage {
   protected:
     void TearDown() override {
-        close_browser();
+        leave_page();
         cluster_.reset();
         LivePage::TearDown();
     }

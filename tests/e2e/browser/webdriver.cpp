@@ -153,6 +153,17 @@ void Browser::use_window(const std::string& handle) { command(kPost, "/window", 
 
 void Browser::close_window() { command("DELETE", "/window"); }
 
+void Browser::begin_anew() {
+    const json old = command("GET", "/window/handles");
+    const std::string fresh = open_window();
+    for (const json& handle : old) {
+        use_window(handle.get<std::string>());
+        close_window();
+    }
+    use_window(fresh);
+    devtools("Network.clearBrowserCookies", json::object());
+}
+
 json Browser::devtools(const std::string& method, const json& parameters) {
     return command(kPost, "/goog/cdp/execute", {{"cmd", method}, {"params", parameters}});
 }

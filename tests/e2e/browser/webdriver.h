@@ -54,6 +54,7 @@ class Browser {
     void use_window(const std::string& handle);
     void close_window();                          // then use another
     void set_viewport(const Viewport& viewport);  // for the window in use
+    void begin_anew();                            // with one new window, and without cookies
     void open(const std::string& url);
 
     // The value of a JavaScript expression in the page, awaited if it is a promise; `await` and
