@@ -84,9 +84,11 @@ std::unique_ptr<Process> EndToEnd::start(const std::string& program, Arguments a
         arguments = Arguments{"--silence-ms", "10000"} + arguments;
     return std::make_unique<Process>(
         std::filesystem::path(SWATH_PROGRAMS) / program, arguments,
-        Process::Options{
-            Arguments{"LP_NUM_THREADS=0", "XDG_CACHE_HOME=" + files_.path_of("cache")} + environment_,
-            folder});
+        Process::Options{Arguments{"LP_NUM_THREADS=0", "XDG_CACHE_HOME=" + files_.path_of("cache"),
+                                   // All tests compile the same few shaders.
+                                   "MESA_SHADER_CACHE_DIR=" SWATH_PROGRAMS "/../tests/shaders"} +
+                             environment_,
+                         folder});
 }
 
 Finished EndToEnd::run(const std::string& program, const Arguments& arguments,
