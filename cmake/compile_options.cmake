@@ -39,7 +39,7 @@ endfunction()
 # swath_reads_options(SOURCE...): sources of this folder that include CLI11, whose headers are full of code. Optimising that
 # takes as long as reading it, and a program runs it once.
 function(swath_reads_options)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-Og>")
 endfunction()
 
 # swath_kernel(LIBRARY SOURCE [INSTRUCTION_SET...]): adds SOURCE to LIBRARY, compiled once for every processor

@@ -42,8 +42,8 @@ const std::array kKeys{
     Key{"server.culls", +[](H& h) -> bool& { return h.server.culls; }, {}, Need::kAlways,
         "whether objects outside of the view cost nothing"},
     Key{"server.compositing", +[](H& h) -> Compositing& { return h.server.compositing; }, {}, Need::kAlways,
-        "who merges pixels: \"graphics\" reads and writes each swath in the graphics card's buffers, \"host\" "
-        "reads a frame once and merges in memory"},
+        "who composites pixels: \"graphics\" reads and writes each swath in the graphics card's buffers, \"host\" "
+        "reads a frame once and composites in memory"},
     Key{"server.colour.latency", +[](H& h) -> D { return h.server.colour.latency_s; }, Unit::kTime, Need::kAlways,
         "of an operation on the colour buffer"},
     Key{"server.colour.read", +[](H& h) -> D { return h.server.colour.read_pixels_per_s; }, Unit::kPixelRate,

@@ -48,9 +48,9 @@ class Membership : public EndToEnd {
         const std::string folder = render({kModel, "--single", "--path", camera, "--size", "320x240"});
         return contents(std::filesystem::path(folder) / "frame_0000.png");
     }
-    static void expect_stops(Process& process) {
+    static void expect_stops(Process& process, milliseconds limit = kPatience) {
         process.signal(SIGTERM);
-        const Finished finished = process.wait(kStop);
+        const Finished finished = process.wait(limit);
         expect_no_crash(finished);
         EXPECT_EQ(finished.exit_code, 0) << finished.err;
     }
@@ -228,30 +228,30 @@ TEST_F(Membership, ProgramsStopWithinTwoSecondsWhateverTheyDo) {
                                               display_address_, "--view"});
     one.process->wait_for_line("client ", kPatience);
     std::this_thread::sleep_for(milliseconds(200));
-    expect_stops(*one.process);
+    expect_stops(*one.process, kStop);
     expect_one_error(large->wait(kPatience), 1, {one.address});
 
     const Server two = server();
     const auto client = start_client(two.address, {"--frames", "100000"});
     client->wait_for_line("are ready", kPatience);
-    expect_stops(*display_);
+    expect_stops(*display_, kStop);
     expect_one_error(client->wait(kStop), 1, {"display", "stopped"});
 }
 
 TEST_F(Membership, HealthIsThatSomebodyAnswers) {
     start_display();
     const Server one = server();
-    EXPECT_EQ(run("swath-server", {"--health", "--listen", one.address}, kStop).exit_code, 0);
-    EXPECT_EQ(run("swath-display", {"--health", "--listen", display_address_}, kStop).exit_code, 0);
-    expect_one_error(run("swath-server", {"--health", "--listen", display_address_}, kStop), 1,
+    EXPECT_EQ(run("swath-server", {"--health", "--listen", one.address}).exit_code, 0);
+    EXPECT_EQ(run("swath-display", {"--health", "--listen", display_address_}).exit_code, 0);
+    expect_one_error(run("swath-server", {"--health", "--listen", display_address_}), 1,
                      {"a display, not a server"});
     one.process->signal(SIGSTOP);
-    expect_one_error(run("swath-server", {"--health", "--listen", one.address}, kStop), 1, {one.address});
+    expect_one_error(run("swath-server", {"--health", "--listen", one.address}), 1, {one.address});
     one.process->signal(SIGCONT);
     const std::string port = one.address.substr(one.address.rfind(':'));
-    EXPECT_EQ(run("swath-server", {"--health", "--listen", "0.0.0.0" + port}, kStop).exit_code, 0);
+    EXPECT_EQ(run("swath-server", {"--health", "--listen", "0.0.0.0" + port}).exit_code, 0);
     expect_stops(*one.process);
-    expect_one_error(run("swath-server", {"--health", "--listen", one.address}, kStop), 1, {"refused"});
+    expect_one_error(run("swath-server", {"--health", "--listen", one.address}), 1, {"refused"});
 }
 
 TEST_F(Membership, PageIsWhereItIsPublished) {
