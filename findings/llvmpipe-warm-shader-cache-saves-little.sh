@@ -91,7 +91,7 @@ for _ in 1 2 3 4 5 6 7 8 9; do
     mv "$work/kept" "$work/cache"
 done
 median() { cut -d ' ' -f "$2" "$work/$1" | sort -n | sed -n 5p; }
-printf '%-32s %12s %12s\n' "medians of nine" "CPU ms" "page faults"
+printf '%-32s %12s %12s\n' "libosmesa6 $version" "" "" "medians of nine" "CPU ms" "page faults"
 printf '%-32s %12s %12s\n' "dlopen" "$(median cold 1)" "$(median cold 2)" \
     "first picture, cold cache" "$(median cold 3)" "$(median cold 4)" \
     "first picture, warm cache" "$(median warm 3)" "$(median warm 4)"
