@@ -30,7 +30,7 @@ const fs::path& unpacked() {
     static const fs::path folder = SWATH_SLURM;
     return folder;
 }
-fs::path libraries() { return unpacked() / "usr/lib/x86_64-linux-gnu"; }
+fs::path libraries() { return unpacked() / SWATH_SLURM_LIBRARIES; }
 
 std::optional<fs::path> find(const std::string& program) {
     const char* path = std::getenv("PATH");
