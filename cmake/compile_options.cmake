@@ -36,10 +36,10 @@ function(swath_library name)
   target_link_libraries(${name} PUBLIC swath_options)
 endfunction()
 
-# swath_reads_options(SOURCE...): sources of this folder that include CLI11, whose headers are full of code. Optimising that
-# takes as long as reading it, and a program runs it once.
-function(swath_reads_options)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-Og>")
+# swath_reads_options(TARGET): most of its sources include CLI11, whose headers are full of code. Optimising that takes as
+# long as reading it, and a program runs it once.
+function(swath_reads_options target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
 endfunction()
 
 # swath_kernel(LIBRARY SOURCE [INSTRUCTION_SET...]): adds SOURCE to LIBRARY, compiled once for every processor
