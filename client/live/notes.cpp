@@ -1,6 +1,6 @@
 #include "client/live/notes.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <cmath>

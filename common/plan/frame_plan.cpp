@@ -1,6 +1,6 @@
 #include "common/plan/frame_plan.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdint>

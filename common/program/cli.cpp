@@ -1,6 +1,6 @@
 #include "common/program/cli.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "common/program/program.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "common/timeline/summary.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>

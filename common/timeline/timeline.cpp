@@ -1,6 +1,6 @@
 #include "common/timeline/timeline.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace swath {
 namespace {

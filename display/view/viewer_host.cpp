@@ -1,6 +1,6 @@
 #include "display/view/viewer_host.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/post.hpp>

@@ -1,6 +1,6 @@
 #include "display/view/web_server.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

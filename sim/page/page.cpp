@@ -1,6 +1,6 @@
 #include "sim/page/page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace swath::sim {
 namespace {

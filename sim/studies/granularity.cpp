@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "client/cost/client_time.h"
 #include "sim/picture/figures.h"

@@ -5,7 +5,7 @@
 #else
 #include <embree4/rtcore.h>
 #endif
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 // Viewers over real connections, and their session's side.
 #include "display/view/viewer_host.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The web server against strangers: bad requests, bad messages and silence.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

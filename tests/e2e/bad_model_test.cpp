@@ -1,6 +1,6 @@
 // A bad model ends the client with exit code 1 and one line that names the file, the fault and the limit;
 // nothing is written.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "tests/e2e/programs.h"
 

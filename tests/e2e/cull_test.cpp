@@ -1,5 +1,5 @@
 // With every way to cull, the pictures are those of a single process that draws everything.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "tests/e2e/programs.h"
 

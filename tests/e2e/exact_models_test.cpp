@@ -1,5 +1,5 @@
 // The same on real models, which have uneven triangles, real depth ties and many materials.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "tests/e2e/programs.h"
 

@@ -1,5 +1,5 @@
 // With every algorithm and number of servers, the pictures are those of a single process, byte for byte.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "tests/e2e/programs.h"
 

@@ -1,5 +1,5 @@
 // The output of a run: pictures, timelines, the summary, progress, and the help that explains all of it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <map>
 #include <nlohmann/json.hpp>

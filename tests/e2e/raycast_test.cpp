@@ -1,6 +1,6 @@
 // Servers that cast rays: their pictures are those of a single process that does, byte for byte; in a cluster
 // of both kinds they are nearly those of the rasteriser.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <csignal>

@@ -1,7 +1,7 @@
 // Every command that README.md prints works: all are run, in their order, in a fresh folder in which the
 // repository's scripts, the programs and the models lie where a user has them. The rules below say what is not run,
 // and what is changed before it is run. A command that they do not know fails the test.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <fstream>

@@ -1,6 +1,6 @@
 #include "tests/support/web_client.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>

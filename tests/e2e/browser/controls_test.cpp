@@ -1,5 +1,5 @@
 // A person's changes while frames run: each takes effect without a restart and leaves the picture exact.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include "tests/e2e/browser/live_page.h"

@@ -1,5 +1,5 @@
 // Downloads from the page.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <sstream>

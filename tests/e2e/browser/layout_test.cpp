@@ -1,5 +1,5 @@
 // The page's look for everybody: sizes, colour schemes, keys, accessibility.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <set>

@@ -1,6 +1,6 @@
 #include "tests/e2e/browser/live_page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

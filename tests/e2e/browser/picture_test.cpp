@@ -1,5 +1,5 @@
 // The picture of a live run, as a person sees and steers it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Several viewers, clients and displays that come and go, and runs that nobody steers.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <csignal>

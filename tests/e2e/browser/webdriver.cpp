@@ -1,6 +1,6 @@
 #include "tests/e2e/browser/webdriver.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <array>

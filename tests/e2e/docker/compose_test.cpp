@@ -1,5 +1,5 @@
 // The promises of docker/README.md, with a real engine. One image and a few clusters serve all tests.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <charconv>

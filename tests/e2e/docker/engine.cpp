@@ -1,7 +1,7 @@
 #include "tests/e2e/docker/engine.h"
 
 #include <arpa/inet.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

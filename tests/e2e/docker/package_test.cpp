@@ -1,5 +1,5 @@
 // These tests install the Debian package on a system that has nothing else.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include "tests/e2e/docker/engine.h"

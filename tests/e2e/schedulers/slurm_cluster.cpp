@@ -1,7 +1,7 @@
 #include "tests/e2e/schedulers/slurm_cluster.h"
 
 #include <arpa/inet.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <sys/socket.h>
 #include <sys/wait.h>

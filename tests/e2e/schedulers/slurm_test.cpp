@@ -1,5 +1,5 @@
 // docker/slurm/swath.sbatch on a Slurm cluster of this machine.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>

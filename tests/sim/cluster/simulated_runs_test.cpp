@@ -1,5 +1,5 @@
 // Properties of every run, whatever the scene.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
