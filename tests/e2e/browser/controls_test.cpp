@@ -55,7 +55,7 @@ TEST_F(LiveControls, EveryCullingGivesTheSamePicture) {
     start_view();
     const std::string bytes = drawn().bytes;
     for (const std::string& cull : choices("culls")) {
-        if (cull == state("cull")) continue;
+        if (state("cull") == cull) continue;
         choose("cull", cull);
         wait_for_setup("cull", cull);
         EXPECT_TRUE(drawn().bytes == bytes) << cull;

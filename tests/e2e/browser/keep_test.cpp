@@ -47,10 +47,10 @@ TEST_F(LiveKeep, TheCommandAndTheCameraDrawTheSamePicture) {
     wait_for_rest();
     const std::filesystem::path camera = saved_by("save-camera", ".camera");
     EXPECT_EQ(camera.filename(), "view.camera");
-    EXPECT_EQ(contents(camera), browser().evaluate("swath.cameraText()"));
+    EXPECT_EQ(browser().evaluate("swath.cameraText()"), contents(camera));
 
     const auto command = browser().evaluate("document.getElementById('command').value").get<std::string>();
-    EXPECT_EQ(command, state("command"));
+    EXPECT_EQ(state("command"), command);
     EXPECT_THAT(command, testing::HasSubstr("--algorithm sort-last"));
     std::istringstream words(command);
     std::string program;
