@@ -87,7 +87,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->required();
     auto* local =
         app.add_option("--local", options.local, "start a display and this many servers on this machine [4]")
-            ->check(CLI::Range(std::size_t{1}, kMaxLocalServers));
+            ->check(whole_number(1, kMaxLocalServers));
     auto* remote =
         app.add_option("--servers", servers,
                        "HOST:PORT,... of running servers, dns:NAME:PORT or file:LIST; later ones join")
@@ -127,9 +127,9 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->capture_default_str();
     auto* objects = app.add_option("--objects", options.granularity.objects,
                                    "cut the model into about this many objects [1500]")
-                        ->check(CLI::Range(std::size_t{1}, kMaxObjectsAsked));
+                        ->check(whole_number(1, kMaxObjectsAsked));
     auto* octree = app.add_option("--octree-depth", depth, "... or by an octree of this depth")
-                       ->check(CLI::Range(0, kMaxOctreeDepth));
+                       ->check(whole_number(0, kMaxOctreeDepth));
     octree->excludes(objects);
     app.add_option("--size", size, "of the picture in pixels")->capture_default_str();
     app.add_option("--background", background, "colour behind the model, RRGGBB")->capture_default_str();
@@ -138,7 +138,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--pose", options.pose, "0 to 1: where a model that moves is held [to and fro; live 0]")
         ->check(number_within(0, 1));
     auto* frame_count = app.add_option("--frames", frames, "how many [50, or all of a camera file]")
-                            ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
+                            ->check(whole_number(1, 1'000'000))
                             ->excludes(viewer);
     app.add_option(
            "--path", options.path,
@@ -153,7 +153,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->check(number_within(0.01, 100));
     app.add_option("--in-flight", options.in_flight, "frames begun and not complete at a time")
         ->capture_default_str()
-        ->check(CLI::Range(1, 8));
+        ->check(whole_number(1, 8));
     add_threads_option(app, options.threads);
     add_trees_option(app, options.cuda)->excludes(remote);
     app.add_option("--out", options.out,

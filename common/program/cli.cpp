@@ -4,10 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include <charconv>
-#include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 
 #include "common/image/picture.h"
 #include "common/program/version.h"
@@ -64,28 +62,32 @@ Result<PictureSize> parse_size(const std::string& flag, const std::string& text)
                 kMaxPicturePixels);
 }
 
-CLI::Validator number_within(double low, double high) {
+namespace {
+
+// Takes a text that is a T within the limits, and nothing else.
+template <class T>
+CLI::Validator within(const char* what, T low, T high) {
     return CLI::Validator(
-        [low, high](std::string& text) -> std::string {
-            double value = 0;
+        [=](std::string& text) -> std::string {
+            T value{};
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (error == std::errc{} && end == text.data() + text.size() && value >= low && value <= high)
-                return {};
-            return fmt::format("Value {} not in range {} to {}", text, low, high);
+            if (error != std::errc{} || end != text.data() + text.size() || !(value >= low && value <= high))
+                return fmt::format("'{}' is not a {} from {} to {}", text, what, low, high);
+            // CLI11 would read a zero in front as octal.
+            text = fmt::format("{}", value);
+            return {};
         },
-        fmt::format("FLOAT in [{} - {}]", low, high));
+        fmt::format("[{} - {}]", low, high));
 }
 
-CLI::Validator whole_number() {
-    return CLI::Validator(
-        [](std::string& text) -> std::string {
-            std::uint64_t value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (error == std::errc{} && end == text.data() + text.size()) return {};
-            return fmt::format("{} is no whole number up to {}", text,
-                               std::numeric_limits<std::uint64_t>::max());
-        },
-        "");
+}  // namespace
+
+CLI::Validator number_within(double low, double high) { return within("number", low, high); }
+
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
+    auto validator = within("whole number", low, high);
+    if (high == std::numeric_limits<std::uint64_t>::max()) validator.description("");
+    return validator;
 }
 
 }  // namespace swath

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -32,8 +34,10 @@ struct PictureSize {
 };
 Result<PictureSize> parse_size(const std::string& flag, const std::string& text);
 
-// Stricter than CLI11's own, which let "nan" through and take "-1" for the largest whole number.
+// Stricter than CLI11's own, which let "nan" through, take "-1" for the largest whole number and "010" for 8; and
+// their words are the same with all its versions.
 CLI::Validator number_within(double low, double high);
-CLI::Validator whole_number();  // of 64 bits
+CLI::Validator whole_number(std::uint64_t low = 0,
+                            std::uint64_t high = std::numeric_limits<std::uint64_t>::max());
 
 }  // namespace swath

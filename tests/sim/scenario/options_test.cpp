@@ -71,6 +71,23 @@ TEST(ScenarioFlags, TakeListsAndEachValueOnce) {
     EXPECT_EQ(options->granularities.size(), 2u);
 }
 
+TEST(ScenarioFlags, TakeNumbersInOneNotation) {
+    const auto options = options_of("--model m --frames 010 --seed 08 --zoom 1e1");
+    ASSERT_TRUE(options) << options.error().message;
+    EXPECT_EQ(options->path.frames, 10u);
+    EXPECT_EQ(options->path.seed, 8u);
+    EXPECT_EQ(options->path.zoom, 10.0);
+    for (const std::string flag :
+         {"--frames 0x10", "--frames +3", "--frames 1e3", "--frames 0", "--frames 3.0"})
+        EXPECT_THAT(options_error("--model m " + flag), HasSubstr("is not a whole number from 1 to 100000"))
+            << flag;
+    for (const std::string flag : {"--seed=-1", "--seed 18446744073709551616"})
+        EXPECT_THAT(options_error("--model m " + flag), HasSubstr("is not a whole number from 0")) << flag;
+    for (const std::string flag : {"--zoom nan", "--zoom 0", "--zoom inf", "--zoom 1x"})
+        EXPECT_THAT(options_error("--model m " + flag), HasSubstr("is not a number from 0.01 to 100"))
+            << flag;
+}
+
 TEST(ScenarioFlags, OfASingleRunTakeOneModel) {
     ASSERT_TRUE(options_of("builtin:knot --servers 2,4", false));
     EXPECT_NE(options_error("builtin:knot builtin:town", false), "no error");
