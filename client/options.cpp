@@ -87,7 +87,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->required();
     auto* local =
         app.add_option("--local", options.local, "start a display and this many servers on this machine [4]")
-            ->check(whole_number(1, kMaxLocalServers));
+            ->transform(whole_number(1, kMaxLocalServers));
     auto* remote =
         app.add_option("--servers", servers,
                        "HOST:PORT,... of running servers, dns:NAME:PORT or file:LIST; later ones join")
@@ -127,18 +127,18 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->capture_default_str();
     auto* objects = app.add_option("--objects", options.granularity.objects,
                                    "cut the model into about this many objects [1500]")
-                        ->check(whole_number(1, kMaxObjectsAsked));
+                        ->transform(whole_number(1, kMaxObjectsAsked));
     auto* octree = app.add_option("--octree-depth", depth, "... or by an octree of this depth")
-                       ->check(whole_number(0, kMaxOctreeDepth));
+                       ->transform(whole_number(0, kMaxOctreeDepth));
     octree->excludes(objects);
     app.add_option("--size", size, "of the picture in pixels")->capture_default_str();
     app.add_option("--background", background, "colour behind the model, RRGGBB")->capture_default_str();
     auto* light_at =
         app.add_option("--light", light, "X,Y,Z in the model's space, towards the light [the eye]");
     app.add_option("--pose", options.pose, "0 to 1: where a model that moves is held [to and fro; live 0]")
-        ->check(number_within(0, 1));
+        ->transform(number_within(0, 1));
     auto* frame_count = app.add_option("--frames", frames, "how many [50, or all of a camera file]")
-                            ->check(whole_number(1, 1'000'000))
+                            ->transform(whole_number(1, 1'000'000))
                             ->excludes(viewer);
     app.add_option(
            "--path", options.path,
@@ -146,14 +146,14 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--seed", options.seed, "of the random path")
         ->capture_default_str()
-        ->check(whole_number());
+        ->transform(whole_number());
     app.add_option("--zoom", options.zoom,
                    "1: the model's box fits in every frame (orbit) or is as high as the picture (random)")
         ->capture_default_str()
-        ->check(number_within(0.01, 100));
+        ->transform(number_within(0.01, 100));
     app.add_option("--in-flight", options.in_flight, "frames begun and not complete at a time")
         ->capture_default_str()
-        ->check(whole_number(1, 8));
+        ->transform(whole_number(1, 8));
     add_threads_option(app, options.threads);
     add_trees_option(app, options.cuda)->excludes(remote);
     app.add_option("--out", options.out,
@@ -167,7 +167,7 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
                    "what every machine did when: FILE.csv, a table, or FILE.json for ui.perfetto.dev");
     app.add_option("--connect-s", options.connect_patience_s, "how long to try to reach servers and display")
         ->capture_default_str()
-        ->check(number_within(0.1, 3600));
+        ->transform(number_within(0.1, 3600));
     add_program_options(app, options.program, options.timing);
     app.footer("\nBuilt-in models, about a million triangles each unless :TRIANGLES says otherwise:\n" +
                builtin_list() + "\nExit codes: 0 done, 1 failed, 2 wrong usage.");

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--cache", cache, "folder for models that clients send")->capture_default_str();
     app.add_option("--max-model-mib", "largest model that a client may send, in MiB [8192]")
-        ->check(whole_number(1, 1 << 24))
+        ->transform(whole_number(1, 1 << 24))
         ->each([&](const std::string& v) { options.max_model_bytes = std::stoull(v) << 20; });
     add_threads_option(app, threads);
     add_trees_option(app, cuda);

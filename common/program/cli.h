@@ -35,7 +35,7 @@ struct PictureSize {
 Result<PictureSize> parse_size(const std::string& flag, const std::string& text);
 
 // Stricter than CLI11's own, which let "nan" through, take "-1" for the largest whole number and "010" for 8; and
-// their words are the same with all its versions.
+// their words are the same with all its versions. For CLI::Option::transform: CLI11 gets the number as it writes it.
 CLI::Validator number_within(double low, double high);
 CLI::Validator whole_number(std::uint64_t low = 0,
                             std::uint64_t high = std::numeric_limits<std::uint64_t>::max());

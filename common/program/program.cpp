@@ -31,7 +31,7 @@ void add_program_options(CLI::App& app, ProgramOptions& options, WireTiming& tim
                timing.heartbeat = timing.silence_limit / 6;
            },
            "a peer that is silent this long is taken for dead [1600]")
-        ->check(whole_number(100, 600'000));
+        ->transform(whole_number(100, 600'000));
 }
 
 void add_waiting_options(CLI::App& app, ProgramOptions& options) {
@@ -44,7 +44,7 @@ void add_threads_option(CLI::App& app, int& threads) {
     app.add_option("--threads", threads,
                    "threads that draw, cast rays and cull beside the first, per process [as cores allow]")
         ->envname("LP_NUM_THREADS")
-        ->check(whole_number(0, 256));
+        ->transform(whole_number(0, 256));
 }
 
 void set_raster_threads(int threads) {

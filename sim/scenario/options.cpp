@@ -85,9 +85,9 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
     values(app.add_option("--size", sizes_, "of the picture in pixels" + list))->capture_default_str();
     auto* depths =
         values(app.add_option("--octree-depth", depths_, "that cuts the model into objects [4]" + list)
-                   ->check(whole_number(0, kMaxOctreeDepth)));
+                   ->transform(whole_number(0, kMaxOctreeDepth)));
     values(app.add_option("--objects", objects_, "... or about how many objects to cut it into" + list)
-               ->check(whole_number(1, kMaxObjectsAsked)))
+               ->transform(whole_number(1, kMaxObjectsAsked)))
         ->excludes(depths);
     app.add_option(
            "--objects-by", objects_by_,
@@ -99,21 +99,23 @@ void ScenarioFlags::add_to(CLI::App& app, bool many) {
         ->capture_default_str();
     app.add_option("--frames", path_.frames, "of a path; full mode takes about ten to settle")
         ->capture_default_str()
-        ->check(whole_number(1, 100'000));
+        ->transform(whole_number(1, 100'000));
     app.add_option(
            "--zoom", path_.zoom,
            "1: the longest side of the model's box is as high as the picture (random), or all of the\n"
            "box fits in every frame (orbit)")
         ->capture_default_str()
-        ->check(number_within(0.01, 100));
-    app.add_option("--seed", path_.seed, "of the random path")->capture_default_str()->check(whole_number());
+        ->transform(number_within(0.01, 100));
+    app.add_option("--seed", path_.seed, "of the random path")
+        ->capture_default_str()
+        ->transform(whole_number());
     app.add_option("--seeds", path_.seeds, "how many random paths: SEED and those after it")
         ->capture_default_str()
-        ->check(whole_number(1, 10'000));
+        ->transform(whole_number(1, 10'000));
     app.add_option("--in-flight", frames_in_flight_, "frames begun and not complete at a time, in full mode")
         ->capture_default_str()
-        ->check(whole_number(1, 8));
-    app.add_option("--threads", threads_, "to simulate with [one a core]")->check(whole_number(1, 1024));
+        ->transform(whole_number(1, 8));
+    app.add_option("--threads", threads_, "to simulate with [one a core]")->transform(whole_number(1, 1024));
 }
 
 Result<ScenarioOptions> ScenarioFlags::read() const {

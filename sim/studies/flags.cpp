@@ -40,14 +40,14 @@ void StudyFlags::add_to(CLI::App& app) {
         ->capture_default_str();
     app.add_option("--frames", options_.frames, "of a camera path")
         ->capture_default_str()
-        ->check(whole_number(1, 100'000));
+        ->transform(whole_number(1, 100'000));
     app.add_option("--seed", options_.seed, "of the first camera path")
         ->capture_default_str()
-        ->check(whole_number());
+        ->transform(whole_number());
     app.add_option("--seeds", options_.seeds, "how many camera paths: SEED and those after it")
         ->capture_default_str()
-        ->check(whole_number(1, 10'000));
-    app.add_option("--threads", threads_, "to simulate with [one a core]")->check(whole_number(1, 1024));
+        ->transform(whole_number(1, 10'000));
+    app.add_option("--threads", threads_, "to simulate with [one a core]")->transform(whole_number(1, 1024));
     app.add_option("--out", options_.out, "folder for tables, plots, pictures and index.html")->required();
     app.add_flag("--quiet", options_.quiet, "show no progress");
 }
