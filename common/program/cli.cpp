@@ -11,9 +11,26 @@
 #include "common/program/version.h"
 
 namespace swath {
+namespace {
+
+// Our texts are broken into lines already. CLI11 2.5 and later would break them again, at 65 and 80 columns, and
+// indent long flags.
+template <class Formatter>
+void leave_lines_alone(Formatter& formatter) {
+    if constexpr (requires { formatter.right_column_width(1); }) {
+        formatter.right_column_width(1000);
+        formatter.description_paragraph_width(1000);
+        formatter.footer_paragraph_width(1000);
+    }
+    if constexpr (requires { formatter.long_option_alignment_ratio(0.0f); })
+        formatter.long_option_alignment_ratio(0.0f);
+}
+
+}  // namespace
 
 std::optional<int> parse_options(CLI::App& app, int argc, char** argv,
                                  const std::function<std::string()>& about) {
+    leave_lines_alone(*app.get_formatter());
     const std::string program = std::filesystem::path(argv[0]).filename();
     app.set_version_flag(
         "--version",
