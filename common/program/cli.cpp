@@ -22,8 +22,8 @@ void leave_lines_alone(Formatter& formatter) {
         formatter.description_paragraph_width(1000);
         formatter.footer_paragraph_width(1000);
     }
-    if constexpr (requires { formatter.long_option_alignment_ratio(0.0f); })
-        formatter.long_option_alignment_ratio(0.0f);
+    if constexpr (requires { formatter.long_option_alignment_ratio(0.2f); })
+        formatter.long_option_alignment_ratio(0.2f);
 }
 
 }  // namespace
