@@ -258,9 +258,14 @@ TEST_F(Output, HelpIsOnePageAndNamesEveryFlag) {
         const Finished finished = start(program, {"--help"})->wait(kPatience);
         EXPECT_EQ(finished.exit_code, 0);
         EXPECT_EQ(finished.err, "");
-        const auto lines = lines_of(finished.out);
-        EXPECT_LE(lines.size(), 70u) << program;
-        for (const std::string& line : lines) EXPECT_LE(line.size(), 120u) << program << ": " << line;
+        // CLI11's versions differ in empty lines and in spaces at the ends of lines.
+        std::size_t text_lines = 0;
+        for (const std::string& line : lines_of(finished.out)) {
+            const std::size_t length = line.find_last_not_of(' ') + 1;
+            EXPECT_LE(length, 120u) << program << ": " << line;
+            if (length > 0) ++text_lines;
+        }
+        EXPECT_LE(text_lines, 67u) << program;
         for (const std::string& word : words)
             EXPECT_NE(finished.out.find(word), std::string::npos) << program << " does not explain " << word;
     }
