@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
-# Finding: Debian 13's Slurm daemons end at once when they are started by the name of their file.
+# Finding: Debian 13's slurmctld ends at once when it is started by the name of its file.
 #
 # Guess: Debian installs slurmctld as /usr/sbin/slurmctld-wlm, with slurmctld a link that its alternatives make; whoever
 # unpacks the package without its scripts, in a test or an image, runs the file by the name that it has.
-# Seen (slurmctld 24.11.5-4+deb13u1): Slurm 24.11 compares the name it was called by with "slurmctld" and "slurmd" before it
-# loads its certificate manager, which no setting leaves out: started as slurmctld-wlm it ends with "certmgr plugin only
-# allowed on slurmctld and slurmd", which names a plugin, not the cause. Called slurmctld the same file goes on. Debian 12's
-# 22.05 does not ask. So unpack, then link the names.
+# Seen (slurmctld 24.11.5-4+deb13u1): started as slurmctld-wlm it ends with "certmgr plugin only allowed on slurmctld and
+# slurmd", which names a plugin that this configuration does not mention, not the cause. Called slurmctld the same file
+# goes on, here to where it misses munged. So unpack, then link the names.
 #
 # Needs a Debian with apt, of any release; fetches Debian 13's packages and runs them with their own C library.
 set -euo pipefail
@@ -21,7 +20,7 @@ apt=(apt-get -qq -y --no-install-recommends -o Dir::Etc::sourcelist="$work/sourc
     -o Dir::State::lists="$work/lists" -o Dir::State::status="$work/status" -o Dir::Cache::archives="$work/debs"
     -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= -o Debug::NoLocking=1 -o APT::Sandbox::User=root)
 "${apt[@]}" update >/dev/null
-"${apt[@]}" --download-only install "slurmctld=$version" slurm-wlm-basic-plugins >/dev/null
+"${apt[@]}" --download-only install "slurmctld=$version" "slurm-wlm-basic-plugins=$version" >/dev/null
 for deb in "$work"/debs/*.deb; do dpkg-deb -x "$deb" "$work/root"; done
 lib=$work/root/usr/lib/x86_64-linux-gnu
 cat >"$work/slurm.conf" <<CONF
@@ -44,7 +43,7 @@ start() {
         "$work/root/usr/sbin/slurmctld-wlm" -D -c 2>&1 | sed "s,$work,WORK,g" || true
 }
 for name in slurmctld-wlm slurmctld; do
-    printf '%s\n' "== called $name"
+    printf '%s\n' "== slurmctld $version called $name"
     start "$name" | tee "$work/$name.out"
 done
 grep -q 'certmgr plugin only allowed on slurmctld and slurmd' "$work/slurmctld-wlm.out" ||

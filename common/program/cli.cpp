@@ -26,6 +26,22 @@ void leave_lines_alone(Formatter& formatter) {
         formatter.long_option_alignment_ratio(0.2f);
 }
 
+// Takes a text that is a T within the limits, and nothing else.
+template <class T>
+CLI::Validator within(const char* what, T low, T high) {
+    return CLI::Validator(
+        [=](std::string& text) -> std::string {
+            T value{};
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (error != std::errc{} || end != text.data() + text.size() || !(value >= low && value <= high))
+                return fmt::format("'{}' is not a {} from {} to {}", text, what, low, high);
+            // CLI11 would read a zero in front as octal.
+            text = fmt::format("{}", value);
+            return {};
+        },
+        fmt::format("[{} - {}]", low, high));
+}
+
 }  // namespace
 
 std::optional<int> parse_options(CLI::App& app, int argc, char** argv,
@@ -78,26 +94,6 @@ Result<PictureSize> parse_size(const std::string& flag, const std::string& text)
     return fail("{}: '{}': expected WxH, each from 1 to {}, at most {} pixels", flag, text, kMaxPictureSide,
                 kMaxPicturePixels);
 }
-
-namespace {
-
-// Takes a text that is a T within the limits, and nothing else.
-template <class T>
-CLI::Validator within(const char* what, T low, T high) {
-    return CLI::Validator(
-        [=](std::string& text) -> std::string {
-            T value{};
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (error != std::errc{} || end != text.data() + text.size() || !(value >= low && value <= high))
-                return fmt::format("'{}' is not a {} from {} to {}", text, what, low, high);
-            // CLI11 would read a zero in front as octal.
-            text = fmt::format("{}", value);
-            return {};
-        },
-        fmt::format("[{} - {}]", low, high));
-}
-
-}  // namespace
 
 CLI::Validator number_within(double low, double high) { return within("number", low, high); }
 

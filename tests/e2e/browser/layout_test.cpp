@@ -1,5 +1,5 @@
 // The page's look for everybody: sizes, colour schemes, keys, accessibility.
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <set>
@@ -150,7 +150,7 @@ TEST_P(LiveLayout, IsAccessibleAndNothingIsCutOffOrOverlaps) {
     browser().press(kEscapeKey);
     wait_until("!document.getElementById('help-dialog').open");
     expect_exact();
-    if (axe_.empty()) GTEST_SKIP() << "no axe-core: script/bootstrap --dev gets it where npm is";
+    if (axe_.empty()) GTEST_SKIP() << "no axe-core (script/bootstrap --dev installs it where npm is)";
 }
 
 INSTANTIATE_TEST_SUITE_P(, LiveLayout, testing::ValuesIn(kLooks),
