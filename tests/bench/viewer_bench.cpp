@@ -26,7 +26,7 @@ using nlohmann::json;
 using Steady = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-constexpr std::chrono::seconds kPatience(120);
+constexpr std::chrono::seconds kViewerPatience(120);
 constexpr const char* kSize = "1280x960";
 constexpr std::chrono::microseconds kAnimationFrame(16'667);  // a page sends at most one wish in this time
 constexpr double kInputLagBeyond = 30;                        // ms
@@ -118,7 +118,7 @@ class Programs {
 
 std::string address_of(test::Process& process) {
     static constexpr std::string_view kAnnouncement = "listening ";
-    return process.wait_for_line("listening 127.0.0.1:", kPatience).substr(kAnnouncement.size());
+    return process.wait_for_line("listening 127.0.0.1:", kViewerPatience).substr(kAnnouncement.size());
 }
 
 // CPU time of a running program, all threads.
@@ -153,7 +153,7 @@ Status bench_cost(Figures& figures, const Effort& effort, const Programs& progra
     const auto viewed = programs.start("swath-display", {"--listen", "127.0.0.1:0", "--view", "127.0.0.1:0"});
     const std::string plain_address = address_of(*plain);
     const std::string viewed_address = address_of(*viewed);
-    const std::string page_line = viewed->wait_for_line("viewer http://", kPatience);
+    const std::string page_line = viewed->wait_for_line("viewer http://", kViewerPatience);
 
     const auto all_cpu_s = [&] {
         double sum = ended_cpu_s() + cpu_s(*plain) + cpu_s(*viewed);
@@ -165,7 +165,7 @@ Status bench_cost(Figures& figures, const Effort& effort, const Programs& progra
             "swath-client",
             {effort.model, "--quiet", "--size", kSize, "--frames", std::to_string(effort.frames), "--servers",
              fmt::format("{}", fmt::join(addresses, ",")), "--display", display});
-        const test::Finished run = client->wait(kPatience);
+        const test::Finished run = client->wait(kViewerPatience);
         if (run.exit_code != 0)
             return fail("swath-client failed with exit code {}: {}", run.exit_code, run.err);
         Finished finished;
@@ -267,15 +267,15 @@ class Lag {
 // Steers as a viewer who turns the model all the time, with a new wish every animation frame.
 Status bench_steering(Figures& figures, const Effort& effort, const Programs& programs) {
     const auto client = programs.start("swath-client", {"builtin:knot:20000", "--local", "2", "--view", "0"});
-    SWATH_TRY(auto page, Page::open(client->wait_for_line("viewer http://", kPatience)));
+    SWATH_TRY(auto page, Page::open(client->wait_for_line("viewer http://", kViewerPatience)));
     json wish{{"type", "wish"}, {"id", 0}, {"width", 1280}, {"height", 960}};
     const auto begin = Steady::now();
     while (!wish.contains("camera")) {
-        const auto heard = page->hear(kPatience);
+        const auto heard = page->hear(kViewerPatience);
         if (!heard) return fail("no session came");
         if (!heard->picture && heard->value.value("type", "") == "session")
             wish["camera"] = heard->value.at("home");
-        if (Steady::now() - begin > kPatience) return fail("no session came");
+        if (Steady::now() - begin > kViewerPatience) return fail("no session came");
     }
     const json home = wish["camera"];
 
@@ -291,7 +291,7 @@ Status bench_steering(Figures& figures, const Effort& effort, const Programs& pr
         // A busy machine may need longer for its first picture.
         const auto goes_on = [&] {
             const auto passed = Steady::now() - start;
-            return passed < length || (passed < kPatience && lag.beyond_ms().empty());
+            return passed < length || (passed < kViewerPatience && lag.beyond_ms().empty());
         };
         for (auto next = start; goes_on();) {
             if (const auto now = Steady::now(); now >= next) {
@@ -347,7 +347,7 @@ double busiest_ms(const json& note) {
 Status bench_prediction(Figures& figures, const Effort& effort, const Programs& programs) {
     const std::string model = effort.smoke ? "builtin:knot:20000" : "builtin:knot:200000";
     const auto client = programs.start("swath-client", {model, "--local", "2", "--view", "0"});
-    SWATH_TRY(auto page, Page::open(client->wait_for_line("viewer http://", kPatience)));
+    SWATH_TRY(auto page, Page::open(client->wait_for_line("viewer http://", kViewerPatience)));
     const std::vector<std::string> algorithms{"hybrid", "mahd", "kd-split", "sort-last"};
     constexpr int kFrames = 24;
     constexpr int kPassedOver = 4;  // frames after a change, some of which are another algorithm's
@@ -365,7 +365,7 @@ Status bench_prediction(Figures& figures, const Effort& effort, const Programs& 
                        {"path", "orbit"},
                        {"algorithm", algorithm}});
             for (int frames = 0; frames < kFrames + kPassedOver;) {
-                const auto heard = page->hear(kPatience);
+                const auto heard = page->hear(kViewerPatience);
                 if (!heard) return fail("no more frames came");
                 if (heard->picture || heard->value.value("type", "") != "frame" ||
                     heard->value.at("algorithm") != algorithm)
