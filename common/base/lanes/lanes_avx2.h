@@ -141,6 +141,118 @@ inline std::uint32_t non_zero(Words a) {
 }
 inline Floats to_floats(Words a) { return {_mm256_cvtepi32_ps(a.low), _mm256_cvtepi32_ps(a.high)}; }
 
+inline Words subtract(Words a, Words b) {
+    return {_mm256_sub_epi32(a.low, b.low), _mm256_sub_epi32(a.high, b.high)};
+}
+inline Words product(Words a, Words b) {
+    return {_mm256_mullo_epi32(a.low, b.low), _mm256_mullo_epi32(a.high, b.high)};
+}
+inline Words lower_of(Words a, Words b) {
+    return {_mm256_min_epi32(a.low, b.low), _mm256_min_epi32(a.high, b.high)};
+}
+inline Words higher_of(Words a, Words b) {
+    return {_mm256_max_epi32(a.low, b.low), _mm256_max_epi32(a.high, b.high)};
+}
+inline Words either(Words a, Words b) {
+    return {_mm256_or_si256(a.low, b.low), _mm256_or_si256(a.high, b.high)};
+}
+inline Words exclusive(Words a, Words b) {
+    return {_mm256_xor_si256(a.low, b.low), _mm256_xor_si256(a.high, b.high)};
+}
+inline Words add_halves(Words a, Words b) {
+    return {_mm256_add_epi16(a.low, b.low), _mm256_add_epi16(a.high, b.high)};
+}
+inline Words subtract_halves(Words a, Words b) {
+    return {_mm256_sub_epi16(a.low, b.low), _mm256_sub_epi16(a.high, b.high)};
+}
+inline Words lower_halves(Words a, Words b) {
+    return {_mm256_min_epi16(a.low, b.low), _mm256_min_epi16(a.high, b.high)};
+}
+inline Words higher_halves(Words a, Words b) {
+    return {_mm256_max_epi16(a.low, b.low), _mm256_max_epi16(a.high, b.high)};
+}
+inline Words dot_halves(Words a, Words b) {
+    return {_mm256_madd_epi16(a.low, b.low), _mm256_madd_epi16(a.high, b.high)};
+}
+inline Words magnitude(Words a) { return {_mm256_abs_epi32(a.low), _mm256_abs_epi32(a.high)}; }
+template <int kBits>
+inline Words shift_right_signed(Words a) {
+    return {_mm256_srai_epi32(a.low, kBits), _mm256_srai_epi32(a.high, kBits)};
+}
+template <int kBits>
+inline Words shift_left_halves(Words a) {
+    return {_mm256_slli_epi16(a.low, kBits), _mm256_slli_epi16(a.high, kBits)};
+}
+template <int kBits>
+inline Words shift_right_halves(Words a) {
+    return {_mm256_srai_epi16(a.low, kBits), _mm256_srai_epi16(a.high, kBits)};
+}
+inline Words swap_halves(Words a) { return either(shift_left<16>(a), shift_right<16>(a)); }
+inline Words rounded(Floats a) { return {_mm256_cvtps_epi32(a.low), _mm256_cvtps_epi32(a.high)}; }
+inline Words load_shorts(const std::int16_t* from) {
+    const __m256i both = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+    return {_mm256_cvtepi16_epi32(_mm256_castsi256_si128(both)),
+            _mm256_cvtepi16_epi32(_mm256_extracti128_si256(both, 1))};
+}
+inline Floats look_up(const float* table, Words at) {
+    return {_mm256_i32gather_ps(table, at.low, 4), _mm256_i32gather_ps(table, at.high, 4)};
+}
+inline Words look_up(const std::uint32_t* table, Words at) {
+    const int* const from = reinterpret_cast<const int*>(table);
+    return {_mm256_i32gather_epi32(from, at.low, 4), _mm256_i32gather_epi32(from, at.high, 4)};
+}
+inline Floats look_up64(const float* table, Words at) { return look_up(table, at); }
+inline Words look_up64(const std::uint32_t* table, Words at) { return look_up(table, at); }
+
+// A lane holds if its sign bit is set.
+struct Truths {
+    __m256i low;
+    __m256i high;
+};
+inline Truths negative(Words a) { return {a.low, a.high}; }
+inline Truths is_less(Words a, Words b) {
+    return {_mm256_cmpgt_epi32(b.low, a.low), _mm256_cmpgt_epi32(b.high, a.high)};
+}
+inline Truths is_less(Floats a, Floats b) {
+    return {_mm256_castps_si256(_mm256_cmp_ps(a.low, b.low, _CMP_LT_OQ)),
+            _mm256_castps_si256(_mm256_cmp_ps(a.high, b.high, _CMP_LT_OQ))};
+}
+inline Truths is_equal(Floats a, Floats b) {
+    return {_mm256_castps_si256(_mm256_cmp_ps(a.low, b.low, _CMP_EQ_OQ)),
+            _mm256_castps_si256(_mm256_cmp_ps(a.high, b.high, _CMP_EQ_OQ))};
+}
+inline Truths both(Truths a, Truths b) {
+    return {_mm256_and_si256(a.low, b.low), _mm256_and_si256(a.high, b.high)};
+}
+inline Truths either(Truths a, Truths b) {
+    return {_mm256_or_si256(a.low, b.low), _mm256_or_si256(a.high, b.high)};
+}
+// Those of `a` that are none of `b`.
+inline Truths without(Truths a, Truths b) {
+    return {_mm256_andnot_si256(b.low, a.low), _mm256_andnot_si256(b.high, a.high)};
+}
+inline bool any(Truths a) {
+    return _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_or_si256(a.low, a.high))) != 0;
+}
+inline std::uint32_t bits(Truths a) {
+    return sign_bits(_mm256_castsi256_ps(a.low), _mm256_castsi256_ps(a.high));
+}
+inline Floats load_rows(const float* first, const float* second) {
+    return {_mm256_loadu_ps(first), _mm256_loadu_ps(second)};
+}
+inline Words load_rows(const std::uint32_t* first, const std::uint32_t* second) {
+    return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(first)),
+            _mm256_loadu_si256(reinterpret_cast<const __m256i*>(second))};
+}
+inline void store_rows_where(float* first, float* second, Truths where, Floats a) {
+    _mm256_maskstore_ps(first, where.low, a.low);
+    _mm256_maskstore_ps(second, where.high, a.high);
+}
+inline void store_rows_where(std::uint32_t* first, std::uint32_t* second, Truths where, Words a) {
+    _mm256_maskstore_epi32(reinterpret_cast<int*>(first), where.low, a.low);
+    _mm256_maskstore_epi32(reinterpret_cast<int*>(second), where.high, a.high);
+}
+
 inline std::uint32_t* packed_half(std::uint32_t* out, __m256i a, std::uint32_t mask) {
     // `lanes` lists the numbers of the set bits, one byte each.
     const std::uint64_t bytes = _pdep_u64(mask, 0x0101010101010101) * 0xff;

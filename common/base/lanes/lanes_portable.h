@@ -158,7 +158,169 @@ inline std::uint32_t non_zero(const Words& a) {
     return make_mask([&](int i) { return a.v[i] != 0; });
 }
 inline Floats to_floats(const Words& a) {
-    return make_floats([&](int i) { return __builtin_convertvector(a.v[i], FloatQuad); });
+    return make_floats([&](int i) { return __builtin_convertvector(Truth(a.v[i]), FloatQuad); });
+}
+
+using Halves = std::int16_t __attribute__((vector_size(16)));
+using HalvesModulo = std::uint16_t __attribute__((vector_size(16)));
+
+inline Words subtract(const Words& a, const Words& b) {
+    return make_words([&](int i) { return a.v[i] - b.v[i]; });
+}
+inline Words product(const Words& a, const Words& b) {
+    return make_words([&](int i) { return a.v[i] * b.v[i]; });
+}
+inline Words either(const Words& a, const Words& b) {
+    return make_words([&](int i) { return a.v[i] | b.v[i]; });
+}
+inline Words exclusive(const Words& a, const Words& b) {
+    return make_words([&](int i) { return a.v[i] ^ b.v[i]; });
+}
+inline Words lower_of(const Words& a, const Words& b) {
+    return make_words([&](int i) { return Truth(a.v[i]) < Truth(b.v[i]) ? a.v[i] : b.v[i]; });
+}
+inline Words higher_of(const Words& a, const Words& b) {
+    return make_words([&](int i) { return Truth(a.v[i]) > Truth(b.v[i]) ? a.v[i] : b.v[i]; });
+}
+inline Words add_halves(const Words& a, const Words& b) {
+    return make_words([&](int i) { return WordQuad(HalvesModulo(a.v[i]) + HalvesModulo(b.v[i])); });
+}
+inline Words subtract_halves(const Words& a, const Words& b) {
+    return make_words([&](int i) { return WordQuad(HalvesModulo(a.v[i]) - HalvesModulo(b.v[i])); });
+}
+inline Words lower_halves(const Words& a, const Words& b) {
+    return make_words(
+        [&](int i) { return WordQuad(Halves(a.v[i]) < Halves(b.v[i]) ? Halves(a.v[i]) : Halves(b.v[i])); });
+}
+inline Words higher_halves(const Words& a, const Words& b) {
+    return make_words(
+        [&](int i) { return WordQuad(Halves(a.v[i]) > Halves(b.v[i]) ? Halves(a.v[i]) : Halves(b.v[i])); });
+}
+inline Words dot_halves(const Words& a, const Words& b) {
+    return make_words([&](int i) {
+#ifdef __SSE2__
+        return WordQuad(_mm_madd_epi16(__m128i(a.v[i]), __m128i(b.v[i])));
+#else
+        const Truth x = Truth(a.v[i]);
+        const Truth y = Truth(b.v[i]);
+        return WordQuad((x << 16 >> 16) * (y << 16 >> 16) + (x >> 16) * (y >> 16));
+#endif
+    });
+}
+inline Words magnitude(const Words& a) {
+    return make_words([&](int i) {
+        const WordQuad sign = WordQuad(Truth(a.v[i]) >> 31);
+        return (a.v[i] ^ sign) - sign;
+    });
+}
+template <int kBits>
+inline Words shift_right_signed(const Words& a) {
+    return make_words([&](int i) { return WordQuad(Truth(a.v[i]) >> kBits); });
+}
+template <int kBits>
+inline Words shift_left_halves(const Words& a) {
+    return make_words([&](int i) { return WordQuad(HalvesModulo(a.v[i]) << kBits); });
+}
+template <int kBits>
+inline Words shift_right_halves(const Words& a) {
+    return make_words([&](int i) { return WordQuad(Halves(a.v[i]) >> kBits); });
+}
+inline Words swap_halves(const Words& a) { return either(shift_left<16>(a), shift_right<16>(a)); }
+inline Words rounded(const Floats& a) {
+    return make_words([&](int i) {
+#ifdef __SSE2__
+        return WordQuad(_mm_cvtps_epi32(__m128(a.v[i])));
+#else
+        WordQuad result;
+        for (int j = 0; j < 4; ++j)
+            result[j] = static_cast<std::uint32_t>(static_cast<std::int32_t>(__builtin_rintf(a.v[i][j])));
+        return result;
+#endif
+    });
+}
+inline Words load_shorts(const std::int16_t* from) {
+    Words result;
+    for (int i = 0; i < 16; ++i)
+        result.v[i / 4][i % 4] = static_cast<std::uint32_t>(static_cast<std::int32_t>(from[i]));
+    return result;
+}
+inline Floats look_up(const float* table, const Words& at) {
+    return make_floats([&](int i) {
+        return FloatQuad{table[at.v[i][0]], table[at.v[i][1]], table[at.v[i][2]], table[at.v[i][3]]};
+    });
+}
+inline Words look_up(const std::uint32_t* table, const Words& at) {
+    return make_words([&](int i) {
+        return WordQuad{table[at.v[i][0]], table[at.v[i][1]], table[at.v[i][2]], table[at.v[i][3]]};
+    });
+}
+inline Floats look_up64(const float* table, const Words& at) { return look_up(table, at); }
+inline Words look_up64(const std::uint32_t* table, const Words& at) { return look_up(table, at); }
+
+// A lane is 0 or -1.
+struct Truths {
+    Truth v[kQuads];
+};
+template <class Of>
+inline Truths make_truths(Of of) {
+    return {of(0), of(1), of(2), of(3)};
+}
+inline Truths negative(const Words& a) {
+    return make_truths([&](int i) { return Truth(a.v[i]) < 0; });
+}
+inline Truths is_less(const Words& a, const Words& b) {
+    return make_truths([&](int i) { return Truth(a.v[i]) < Truth(b.v[i]); });
+}
+inline Truths is_less(const Floats& a, const Floats& b) {
+    return make_truths([&](int i) { return a.v[i] < b.v[i]; });
+}
+inline Truths is_equal(const Floats& a, const Floats& b) {
+    return make_truths([&](int i) { return a.v[i] == b.v[i]; });
+}
+inline Truths both(const Truths& a, const Truths& b) {
+    return make_truths([&](int i) { return a.v[i] & b.v[i]; });
+}
+inline Truths either(const Truths& a, const Truths& b) {
+    return make_truths([&](int i) { return a.v[i] | b.v[i]; });
+}
+// Those of `a` that are none of `b`.
+inline Truths without(const Truths& a, const Truths& b) {
+    return make_truths([&](int i) { return a.v[i] & ~b.v[i]; });
+}
+inline std::uint32_t bits(const Truths& a) {
+    return make_mask([&](int i) { return a.v[i]; });
+}
+inline bool any(const Truths& a) {
+    const Truth all = a.v[0] | a.v[1] | a.v[2] | a.v[3];
+#ifdef __SSE2__
+    return _mm_movemask_epi8(__m128i(all)) != 0;
+#else
+    return (all[0] | all[1] | all[2] | all[3]) != 0;
+#endif
+}
+template <class Vector, class Number>
+inline Vector rows(const Number* first, const Number* second) {
+    Vector result;
+    __builtin_memcpy(&result, first, sizeof result / 2);
+    __builtin_memcpy(reinterpret_cast<char*>(&result) + sizeof result / 2, second, sizeof result / 2);
+    return result;
+}
+inline Floats load_rows(const float* first, const float* second) { return rows<Floats>(first, second); }
+inline Words load_rows(const std::uint32_t* first, const std::uint32_t* second) {
+    return rows<Words>(first, second);
+}
+inline void store_rows_where(std::uint32_t* first, std::uint32_t* second, const Truths& where,
+                             const Words& a) {
+    const Words old = load_rows(first, second);
+    const Words result = make_words([&](int i) { return where.v[i] ? a.v[i] : old.v[i]; });
+    __builtin_memcpy(first, &result, sizeof result / 2);
+    __builtin_memcpy(second, reinterpret_cast<const char*>(&result) + sizeof result / 2, sizeof result / 2);
+}
+inline void store_rows_where(float* first, float* second, const Truths& where, const Floats& a) {
+    const Floats old = load_rows(first, second);
+    const Floats result = make_floats([&](int i) { return where.v[i] ? a.v[i] : old.v[i]; });
+    __builtin_memcpy(first, &result, sizeof result / 2);
+    __builtin_memcpy(second, reinterpret_cast<const char*>(&result) + sizeof result / 2, sizeof result / 2);
 }
 
 inline std::uint32_t* packed(std::uint32_t* out, const Words& a, std::uint32_t mask) {
