@@ -115,8 +115,8 @@ tl::expected<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->capture_default_str();
     auto* draw_with =
         app.add_option("--renderer", renderer,
-                       "osmesa, egl (surfaceless) or raycast; with commas between, for the servers in turn\n"
-                       "[the first of the three that works on this machine]");
+                       "raster (ours), osmesa, egl (surfaceless) or raycast; with commas between, for "
+                       "the\nservers in turn [the first of the last three that works on this machine]");
     for (const FlagOption& one : kFlagOptions) app.add_flag(one.name, options.draw.flags.*one.flag, one.help);
     app.add_option(
            "--cull", cull,

@@ -4,7 +4,7 @@
 _swath_values() {
     case $2 in
         --algorithm) echo hybrid mahd kd-split sort-last ;;
-        --renderer) echo osmesa egl raycast ;;
+        --renderer) echo raster osmesa egl raycast ;;
         --cull) echo wide a2ssb adsb none ;;
         --objects-by) echo uniform sah ;;
         --path) echo orbit random ;;

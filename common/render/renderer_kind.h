@@ -10,11 +10,13 @@
 
 namespace swath {
 
-// The kinds of renderer: two libraries of OpenGL and our own ray caster. These numbers travel (docs/wire.md).
-enum class RendererKind : std::uint32_t { kOsmesa = 1, kEgl = 2, kRaycast = 3 };
+// The kinds of renderer: two libraries of OpenGL, our own ray caster and our own rasteriser. These numbers travel
+// (docs/wire.md).
+enum class RendererKind : std::uint32_t { kOsmesa = 1, kEgl = 2, kRaycast = 3, kRaster = 4 };
 template <>
 inline constexpr auto kNames<RendererKind> = names_of<RendererKind>("renderer",
-                                                                    {{RendererKind::kOsmesa, "osmesa"},
+                                                                    {{RendererKind::kRaster, "raster"},
+                                                                     {RendererKind::kOsmesa, "osmesa"},
                                                                      {RendererKind::kEgl, "egl"},
                                                                      {RendererKind::kRaycast, "raycast"}});
 

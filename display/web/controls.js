@@ -6,11 +6,11 @@ import {whole} from './format.js';
 const kNames = {
     'hybrid': 'Hybrid', 'mahd': 'MAHD (sort-first)', 'kd-split': 'KD-split (sort-first)',
     'sort-last': 'Sort-last',
-    'osmesa': 'OSMesa', 'egl': 'EGL', 'raycast': 'Ray caster',
+    'raster': 'Rasteriser', 'osmesa': 'OSMesa', 'egl': 'EGL', 'raycast': 'Ray caster',
     'wide': 'Wide', 'a2ssb': 'A2SSB', 'adsb': 'ADSB', 'none': 'None',
     'orbit': 'Orbit', 'random': 'Random',
 };
-const kRenderers = ['osmesa', 'egl', 'raycast'];
+const kRenderers = ['raster', 'osmesa', 'egl', 'raycast'];
 const kSizes = [[640, 480], [1280, 960], [1920, 1080]];
 const kSelects = ['algorithm', 'against', 'objects', 'size', 'renderer', 'cull', 'path'];
 const kNone = '';  // the value of the option that stands for null

@@ -30,10 +30,12 @@ const std::map<std::string_view, std::set<std::string_view>> kCommonLayers = {
     {"common/cullers", {"common/base", "common/geometry", "common/scene", "common/cull", "common/published"}},
     // Its settings say how a server culls, too.
     {"common/render", {"common/base", "common/geometry", "common/scene", "common/image", "common/cull"}},
+    {"common/raster", {"common/base", "common/geometry", "common/scene", "common/image", "common/render"}},
     {"common/raycast",
      {"common/base", "common/geometry", "common/scene", "common/octree", "common/image", "common/render"}},
     // It makes the implementations of the interface in render.
-    {"common/renderers", {"common/base", "common/scene", "common/octree", "common/render", "common/raycast"}},
+    {"common/renderers",
+     {"common/base", "common/scene", "common/octree", "common/render", "common/raster", "common/raycast"}},
     // Messages carry values of the layers below.
     {"common/wire",
      {"common/base", "common/geometry", "common/scene", "common/plan", "common/image", "common/timeline",

@@ -39,7 +39,7 @@ const std::vector<Case> kCases{
     {"UnknownRenderer",
      "swath-client",
      {"builtin:knot", "--renderer", "vulkan"},
-     {"--renderer", "vulkan", "osmesa", "egl", "raycast"}},
+     {"--renderer", "vulkan", "raster", "osmesa", "egl", "raycast"}},
     {"RendererThatIsMissing",
      "swath-client",
      {"builtin:knot", "--renderer", "raycast,"},

@@ -197,7 +197,7 @@ TEST_F(Output, VersionNamesTheCommitTheProtocolAndWhatCanDraw) {
         const bool speaks = program != std::string("swath-sim");
         EXPECT_EQ(finished.out.find("\nprotocol ") != std::string::npos, speaks) << finished.out;
         const bool draws = program == std::string("swath-client") || program == std::string("swath-server");
-        for (const char* renderer : {"osmesa", "egl", "raycast"})
+        for (const char* renderer : {"raster", "osmesa", "egl", "raycast"})
             EXPECT_EQ(finished.out.find(std::string("\n") + renderer + " ") != std::string::npos, draws)
                 << finished.out;
     }

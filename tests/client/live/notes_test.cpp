@@ -78,10 +78,10 @@ TEST(Notes, SayWhichRenderersTheServersHaveInTurn) {
         return Json::parse(session_note({}, &live, {2, 100, 50}))["choices"]["renderers"].dump();
     };
     EXPECT_EQ(Json::parse(state_note(live, "", ""))["renderer"], "raycast,osmesa");
-    EXPECT_EQ(choices(), R"(["osmesa","egl","raycast","raycast,osmesa"])");
+    EXPECT_EQ(choices(), R"(["raster","osmesa","egl","raycast","raycast,osmesa"])");
     ASSERT_TRUE(live.on_wish(R"({"id":1,"renderer":"raycast"})", 1));
     EXPECT_EQ(Json::parse(state_note(live, "", ""))["renderer"], "raycast");
-    EXPECT_EQ(choices(), R"(["osmesa","egl","raycast","raycast,osmesa"])");  // the list can be chosen again
+    EXPECT_EQ(choices(), R"(["raster","osmesa","egl","raycast","raycast,osmesa"])");  // the list can be chosen again
 }
 
 TEST(Notes, OfTheSessionSayWhatThereIsToChooseFrom) {
@@ -98,7 +98,7 @@ TEST(Notes, OfTheSessionSayWhatThereIsToChooseFrom) {
     EXPECT_EQ(note["servers"][1]["address"], "b:2");
     EXPECT_EQ(note["background"], "#0102ff");
     EXPECT_EQ(note["choices"]["algorithms"].dump(), R"(["hybrid","mahd","kd-split","sort-last"])");
-    EXPECT_EQ(note["choices"]["renderers"].dump(), R"(["osmesa","egl","raycast"])");
+    EXPECT_EQ(note["choices"]["renderers"].dump(), R"(["raster","osmesa","egl","raycast"])");
     EXPECT_EQ(note["choices"]["culls"].dump(), R"(["wide","a2ssb","adsb","none"])");
     EXPECT_EQ(note["choices"]["max_width"], 100);
     const Json path = Json::parse(session_note(facts, nullptr, {}));

@@ -103,7 +103,7 @@ TEST_F(WishTest, RefusesValuesOfAnotherKindOrBeyondTheLimits) {
     EXPECT_THAT(refusal("algorithm", "\"magic\""), HasSubstr("'magic' is not known"));
     EXPECT_EQ(refusal("algorithm", "3"), "a name is expected");
     EXPECT_THAT(refusal("against", "\"\""), HasSubstr("not known"));
-    EXPECT_THAT(refusal("renderer", "\"vulkan\""), HasSubstr("there are: osmesa, egl, raycast"));
+    EXPECT_THAT(refusal("renderer", "\"vulkan\""), HasSubstr("there are: raster, osmesa, egl, raycast"));
     EXPECT_THAT(refusal("renderer", "\"osmesa,\""), HasSubstr("renderer '' is not known"));
     EXPECT_THAT(refusal("cull", "\"some\""), HasSubstr("'some' is not known"));
     EXPECT_THAT(refusal("path", "\"/etc/passwd\""), HasSubstr("there are: orbit, random"));

@@ -88,7 +88,7 @@ TEST(WireLimit, OfServerSetup) {
     setup.expect([](auto& m) { m.mutable_drawing()->set_sah_objects(1'000'001); },
                  in + "sah_objects: 1000001, the limit is 1000000");
     setup.expect([](auto& m) { m.mutable_drawing()->set_renderer(0, 0); }, in + "renderer: 0 is none");
-    setup.expect([](auto& m) { m.mutable_drawing()->set_renderer(0, 4); }, in + "renderer: 4 is none");
+    setup.expect([](auto& m) { m.mutable_drawing()->set_renderer(0, 5); }, in + "renderer: 5 is none");
     setup.expect([](auto& m) { m.mutable_drawing()->set_cull(0); }, in + "cull: 0 is none");
     setup.expect([](auto& m) { m.mutable_drawing()->set_cull(5); }, in + "cull: 5 is none");
     setup.expect([](auto& m) { m.set_frames_in_flight(0); },
@@ -144,7 +144,7 @@ TEST(WireLimit, OfReconfigure) {
             m.mutable_drawing()->set_sah_objects(2);
         },
         in + "sah_objects: 2, and an octree_depth too");
-    drawing.expect([](auto& m) { m.mutable_drawing()->set_renderer(0, 4); }, in + "renderer: 4 is none");
+    drawing.expect([](auto& m) { m.mutable_drawing()->set_renderer(0, 5); }, in + "renderer: 5 is none");
     drawing.expect([](auto& m) { m.mutable_drawing()->clear_renderer(); },
                    in + "renderer: 0, the limits are 1 and 1024");
     drawing.expect(

@@ -1,5 +1,5 @@
-// Servers that cast rays: their pictures are those of a single process that does, byte for byte; in a cluster
-// of both kinds they are nearly those of the rasteriser.
+// Servers with our own rasteriser or ray caster: their pictures are those of a single process that has it, byte for byte;
+// in a cluster of several kinds they are nearly those of OpenGL.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
@@ -21,7 +21,7 @@ Result<Picture> picture_of(const std::string& file) {
     return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
-class Raycast : public EndToEnd {
+class OwnRenderers : public EndToEnd {
   protected:
     // Tries all algorithms with all numbers of servers, or only one in `every` of these combinations.
     void compare(const Arguments& run, int every = 1) {
@@ -37,20 +37,37 @@ class Raycast : public EndToEnd {
     }
 };
 
-TEST_F(Raycast, PicturesEqualThoseOfASingleProcess) {
+TEST_F(OwnRenderers, RasterisedPicturesEqualThoseOfASingleProcess) {
+    compare(kPicture + Arguments{"builtin:knot:3000", "--renderer", "raster"});
+    compare(kPicture + Arguments{"builtin:town:3000", "--renderer", "raster"}, 3);
+    compare(kPicture + Arguments{"builtin:swarm:2000", "--renderer", "raster"}, 3);
+    compare(kPicture + Arguments{"builtin:town:3000", "--renderer", "raster", "--objects-by", "sah",
+                                 "--objects", "200"},
+            5);
+}
+
+TEST_F(OwnRenderers, RasterisedPicturesDependNeitherOnThreadsNorOnCulling) {
+    const Arguments run = Arguments{"builtin:town:3000", "--renderer", "raster", "--single"} + kPicture;
+    const std::string expected = render(run);
+    expect_same_pictures(expected, render(run + Arguments{"--threads", "3"}));
+    for (const char* cull : {"none", "a2ssb", "adsb"})
+        expect_same_pictures(expected, render(run + Arguments{"--cull", cull}));
+}
+
+TEST_F(OwnRenderers, PicturesOfRaysEqualThoseOfASingleProcess) {
     compare(kPicture + Arguments{"builtin:knot:3000", "--renderer", "raycast"});
 }
 
-TEST_F(Raycast, PicturesWithShadowsEqualThoseOfASingleProcess) {
+TEST_F(OwnRenderers, PicturesWithShadowsEqualThoseOfASingleProcess) {
     compare(Arguments{"builtin:knot:1000", "--renderer", "raycast", "--shadows"} + kPicture);
 }
 
-TEST_F(Raycast, PicturesOfTreesThatAreBuiltForEachFrameEqualThoseOfASingleProcess) {
+TEST_F(OwnRenderers, PicturesOfTreesThatAreBuiltForEachFrameEqualThoseOfASingleProcess) {
     compare(Arguments{"builtin:spheres:3000", "--renderer", "raycast", "--dynamic"} + kPicture);
 }
 
 // Every frame has another pose.
-TEST_F(Raycast, PicturesOfAModelThatMovesEqualThoseOfASingleProcess) {
+TEST_F(OwnRenderers, PicturesOfAModelThatMovesEqualThoseOfASingleProcess) {
     const Arguments run = Arguments{"builtin:swarm:2000",
                                     "--renderer",
                                     "raycast",
@@ -67,7 +84,7 @@ TEST_F(Raycast, PicturesOfAModelThatMovesEqualThoseOfASingleProcess) {
 }
 
 // Where faces coincide, the order of the cut decides which shows.
-TEST_F(Raycast, PicturesOfSahObjectsEqualThoseOfASingleProcess) {
+TEST_F(OwnRenderers, PicturesOfSahObjectsEqualThoseOfASingleProcess) {
     const Arguments run =
         Arguments{"builtin:town:3000", "--objects-by", "sah", "--objects", "200"} + kPicture;
     compare(run + Arguments{"--renderer", "raycast"});
@@ -75,14 +92,14 @@ TEST_F(Raycast, PicturesOfSahObjectsEqualThoseOfASingleProcess) {
     compare(run + Arguments{"--renderer", std::string(name_of(gl_here()))}, 5);
 }
 
-TEST_F(Raycast, PicturesDependNeitherOnThreadsNorOnATreeBuiltForEachFrame) {
+TEST_F(OwnRenderers, PicturesDependNeitherOnThreadsNorOnATreeBuiltForEachFrame) {
     const Arguments run = Arguments{"builtin:knot:3000", "--renderer", "raycast", "--single"} + kPicture;
     const std::string expected = render(run);
     expect_same_pictures(expected, render(run + Arguments{"--threads", "3"}));
     expect_same_pictures(expected, render(run + Arguments{"--dynamic"}));
 }
 
-TEST_F(Raycast, ShadowsMakePicturesDarker) {
+TEST_F(OwnRenderers, ShadowsMakePicturesDarker) {
     const Arguments run = Arguments{"builtin:town:2000", "--renderer", "raycast", "--single"} + kPicture;
     const std::string lit = render(run);
     const std::string shadowed = render(run + Arguments{"--shadows"});
@@ -120,7 +137,7 @@ std::size_t times_missing(const std::string& log) {
     return times;
 }
 
-TEST_F(Raycast, WithoutACudaDeviceTheLogSaysOnceThatThreadsBuildTheTrees) {
+TEST_F(OwnRenderers, WithoutACudaDeviceTheLogSaysOnceThatThreadsBuildTheTrees) {
     const std::size_t once = missing_cuda().empty() ? 0 : 1;
     const Arguments run = Arguments{"builtin:knot:2000", "--renderer", "raycast", "--dynamic"} + kPicture;
     const std::string expected = render(run + Arguments{"--single"});
@@ -146,28 +163,29 @@ TEST_F(Raycast, WithoutACudaDeviceTheLogSaysOnceThatThreadsBuildTheTrees) {
 }
 
 // OpenGL renderers have no trees.
-TEST_F(Raycast, OnlyRayCastersAskForACudaDevice) {
+TEST_F(OwnRenderers, OnlyRayCastersAskForACudaDevice) {
     const Finished finished =
         client(Arguments{"builtin:knot:1000", "--single", "--trees-on", "cuda"} + kPicture);
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
     EXPECT_EQ(times_missing(finished.err), 0u) << finished.err;
 }
 
-// Measured: at most 3 of 153,600 pixels differ by more than 4 of 255. They are at edges, where OpenGL moves
-// corners to its grid within the pixel. The bound leaves room for other libraries.
-TEST_F(Raycast, PicturesOfBothKindsOfServerAreNearlyTheRasterisersPictures) {
+// Measured: at most 3 of 153,600 pixels differ by more than 4 of 255. They are at edges, where rasterisers move
+// corners to a grid within the pixel. The bound leaves room for other libraries.
+TEST_F(OwnRenderers, PicturesOfAllKindsOfServerAreNearlyThoseOfOpenGl) {
     for (const char* model : {"builtin:knot:3000", "builtin:spheres:3000", "builtin:swarm:3000"}) {
         const Arguments run = Arguments{model, "--size", "320x240", "--frames", "2"};
-        const std::string expected = render(run + Arguments{"--single"});
-        const std::string both = fmt::format("raycast,{}", name_of(gl_here()));
-        const std::string rays = render(run + Arguments{"--single", "--renderer", "raycast"});
-        const double by_rays = share_of_different(expected, rays, 4);
-        EXPECT_LT(by_rays, 0.001) << model;
+        const std::string gl(name_of(gl_here()));
+        const std::string expected = render(run + Arguments{"--single", "--renderer", gl});
+        for (const char* ours : {"raster", "raycast"}) {
+            const std::string alone = render(run + Arguments{"--single", "--renderer", ours});
+            EXPECT_LT(share_of_different(expected, alone, 4), 0.001) << model << ' ' << ours;
+        }
         for (const char* algorithm : kAlgorithms) {
             const std::string mixed =
-                render_on(3, run + Arguments{"--renderer", both, "--algorithm", algorithm});
-            const double share = share_of_different(expected, mixed, 4);
-            EXPECT_LT(share, 0.001) << model << ' ' << algorithm;
+                render_on(3, run + Arguments{"--renderer", fmt::format("raycast,{},raster", gl),
+                                             "--algorithm", algorithm});
+            EXPECT_LT(share_of_different(expected, mixed, 4), 0.001) << model << ' ' << algorithm;
         }
     }
 }
