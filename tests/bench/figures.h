@@ -69,6 +69,7 @@ Status bench_culling_render(Figures& figures, const Effort& effort);
 Status bench_swap(Figures& figures, const Effort& effort);
 Status bench_load(Figures& figures, const Effort& effort);
 Status bench_peers(Figures& figures, const Effort& effort);
+Status bench_raster(Figures& figures, const Effort& effort);
 Status bench_simulator(Figures& figures, const Effort& effort);
 Status bench_viewer(Figures& figures, const Effort& effort);
 

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
                                                       {"load", {bench::bench_load}},
                                                       {"octree", {bench::bench_octree, false, true}},
                                                       {"peers", {bench::bench_peers}},
+                                                      {"raster", {bench::bench_raster}},
                                                       {"simulator", {bench::bench_simulator}},
                                                       {"swap", {bench::bench_swap}},
                                                       {"viewer", {bench::bench_viewer}}};
@@ -39,13 +40,14 @@ int main(int argc, char** argv) {
         "  load       reading the Dragon and cutting it into objects\n"
         "  octree     SAH octrees and rays: ours beside the serial kd-tree and Embree\n"
         "  peers      ours beside IceT's and OpenSceneGraph's on the Dragon\n"
+        "  raster     our rasteriser beside llvmpipe, on one thread\n"
         "  simulator  all of the paper's Table 1, events and partitions a second\n"
         "  swap       bytes a swapped pixel takes, and how fast pixels are merged\n"
         "  viewer     what somebody who looks costs, and what they get: pictures a second, lag\n"};
     app.add_option("NAME", name, "which")
         ->required()
         ->check(CLI::IsMember({"cluster", "compose", "culling", "culling-render", "load", "octree", "peers",
-                               "simulator", "swap", "viewer"}));
+                               "raster", "simulator", "swap", "viewer"}));
     app.add_option("--json", json, "write {\"figures\": {name: number}} to this file");
     app.add_option("--out", out,
                    "culling, octree: also draw plots, into this folder, with their numbers as CSV");
