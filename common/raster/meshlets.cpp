@@ -91,7 +91,8 @@ std::uint32_t Meshlets::of_triangle(ObjectId object, std::uint32_t triangle) con
     return static_cast<std::uint32_t>(after - meshlets_.begin()) - 1;
 }
 
-KernelMeshlet Meshlets::kernel(std::uint32_t meshlet, std::uint32_t first, std::uint32_t end) const {
+KernelMeshlet Meshlets::kernel(std::uint32_t meshlet, std::uint32_t first, std::uint32_t end,
+                               bool may_clip) const {
     const Meshlet& of = meshlets_[meshlet];
     return {.vertices = &vertices_[of.first_block],
             .motion = motion_.empty() ? nullptr : &motion_[of.first_block],
@@ -99,7 +100,8 @@ KernelMeshlet Meshlets::kernel(std::uint32_t meshlet, std::uint32_t first, std::
             .blocks = of.block_count,
             .first = first,
             .end = end,
-            .number = kMeshletTriangles * meshlet};
+            .number = kMeshletTriangles * meshlet,
+            .may_clip = may_clip};
 }
 
 std::size_t Meshlets::bytes() const {

@@ -32,7 +32,7 @@ class Meshlets {
     // The meshlet that has a triangle.
     std::uint32_t of_triangle(ObjectId object, std::uint32_t triangle) const;
     // What of a meshlet a kernel draws: its triangles [first, end).
-    KernelMeshlet kernel(std::uint32_t meshlet, std::uint32_t first, std::uint32_t end) const;
+    KernelMeshlet kernel(std::uint32_t meshlet, std::uint32_t first, std::uint32_t end, bool may_clip) const;
     // The memory that all of it takes.
     std::size_t bytes() const;
 

@@ -60,6 +60,7 @@ inline Words packed_position(Words x, Words y) {
 }
 
 // Projects and shades a meshlet's vertices. Returns a bit for each that has to be clipped.
+template <bool kMayClip>
 std::uint64_t transform(const KernelView& view, const KernelMeshlet& meshlet, const KernelTile& tile,
                         Vertices& out) {
     std::uint64_t clipped = 0;
@@ -67,6 +68,8 @@ std::uint64_t transform(const KernelView& view, const KernelMeshlet& meshlet, co
     const Words centre_of_y = all(static_cast<std::uint32_t>(kOnePixel * centre_y(tile)));
     const Floats zero = all(0.0f);
     const Floats half = all(0.5f);
+    const Floats half_width = all(kOnePixel * view.half_width);
+    const Floats half_height = all(kOnePixel * view.half_height);
     constexpr float kPerUnit = 1.0f / 32767.0f;
     for (std::uint32_t block = 0; block < meshlet.blocks; ++block) {
         const VertexBlock& from = meshlet.vertices[block];
@@ -83,20 +86,23 @@ std::uint64_t transform(const KernelView& view, const KernelMeshlet& meshlet, co
         const Floats w = row(view, 3, px, py, pz);
         const Floats z = row(view, 2, px, py, pz);
         const Floats inverse = divide(all(1.0f), w);
-        // From the screen's centre.
-        const Floats x = multiply(multiply(row(view, 0, px, py, pz), inverse), all(view.half_width));
-        const Floats y = multiply(multiply(row(view, 1, px, py, pz), inverse), all(view.half_height));
-        const Floats guard = all(view.guard);
-        const std::uint32_t good =
-            bits(both(both(both(is_less(all(kLeastW), w), is_less(w, all(kMostW))), is_less(zero, add(z, w))),
-                      both(is_less(absolute(x), guard), is_less(absolute(y), guard))));
-        clipped |= std::uint64_t{~good & 0xffff} << (16 * block);
-        const auto snap = [&](Floats at, float to_corner) {
-            const Floats units = multiply(add(at, all(to_corner)), all(static_cast<float>(kOnePixel)));
+        // 1/256 pixels from the screen's centre. Scaling by 256 changes no rounding.
+        const Floats x = multiply(multiply(row(view, 0, px, py, pz), inverse), half_width);
+        const Floats y = multiply(multiply(row(view, 1, px, py, pz), inverse), half_height);
+        std::uint32_t good = 0xffff;
+        if constexpr (kMayClip) {
+            const Floats guard = all(kOnePixel * view.guard);
+            good = bits(
+                both(both(both(is_less(all(kLeastW), w), is_less(w, all(kMostW))), is_less(zero, add(z, w))),
+                     both(is_less(absolute(x), guard), is_less(absolute(y), guard))));
+            clipped |= std::uint64_t{~good & 0xffff} << (16 * block);
+        }
+        const auto snap = [&](Floats at, Floats to_corner) {
+            const Floats units = add(at, to_corner);
             return rounded(good == 0xffff ? units : where(good, units, zero));
         };
-        const Words sx = subtract(snap(x, view.half_width), centre_of_x);
-        const Words sy = subtract(snap(y, view.half_height), centre_of_y);
+        const Words sx = subtract(snap(x, half_width), centre_of_x);
+        const Words sy = subtract(snap(y, half_height), centre_of_y);
         const std::uint32_t at = 16 * block;
         store(out.x + at, sx);
         store(out.y + at, sy);
@@ -175,6 +181,10 @@ void classify(const KernelMeshlet& meshlet, const KernelTile& tile, const Vertic
             for (std::uint32_t i = 0; i < 16; ++i)
                 for (int k = 0; k < 3; ++k)
                     if ((clipped >> (corners[i] >> 8 * k & 0xff) & 1) != 0) live &= ~(1u << i);
+        }
+        if (live == 0) {
+            number = add(number, all(16u << 24));
+            continue;
         }
         const std::uint32_t over_two = non_zero(both(extent, all(0xfffefffeu)));
         const std::uint32_t over_four = non_zero(both(extent, all(0xfffcfffcu)));
@@ -649,7 +659,8 @@ void draw_middle(const List& list, const KernelMeshlet& meshlet, const KernelTil
 
 void draw(const KernelView& view, const KernelMeshlet& meshlet, const KernelTile& tile) {
     Vertices vertices;
-    const std::uint64_t clipped = transform(view, meshlet, tile, vertices);
+    const std::uint64_t clipped = meshlet.may_clip ? transform<true>(view, meshlet, tile, vertices)
+                                                   : transform<false>(view, meshlet, tile, vertices);
     Lists lists;
     classify(meshlet, tile, vertices, clipped, lists);
     // A triangle of three equal corners covers nothing.

@@ -29,6 +29,7 @@ struct KernelMeshlet {
     std::uint32_t first;   // triangles to draw: [first, end)
     std::uint32_t end;
     std::uint32_t number;  // of triangle 0, for ties in depth
+    bool may_clip;         // as BoundsBlock has it
 };
 
 // A vertex with a smaller or larger w is clipped, so that products with 1 / w are neither infinite nor zero.

@@ -34,6 +34,7 @@ struct Item {
     std::uint32_t end;
     Rect rect;  // of the screen
     float nearest;
+    bool may_clip;
 };
 
 KernelView kernel_view(const View& view) {
@@ -105,7 +106,7 @@ class RasterRenderer final : public Renderer {
                     const Meshlet& meshlet = meshlets_.all()[next];
                     const std::uint32_t last = std::min(end, meshlet.first_triangle + meshlet.triangle_count);
                     items_.push_back(
-                        {next, at - meshlet.first_triangle, last - meshlet.first_triangle, {}, 0});
+                        {next, at - meshlet.first_triangle, last - meshlet.first_triangle, {}, 0, false});
                     at = last;
                 }
             }
@@ -134,7 +135,8 @@ class RasterRenderer final : public Renderer {
                 item.rect = intersect({bounds.x0[i], bounds.y0[i], bounds.x1[i], bounds.y1[i]}, rect);
                 item.nearest = bounds.nearest[i];
                 if (item.rect.empty()) continue;
-                if ((bounds.clipped >> i & 1) != 0) clip_triangles(view, item);
+                item.may_clip = (bounds.clipped >> i & 1) != 0;
+                if (item.may_clip) clip_triangles(view, item);
                 items_[kept++] = item;
             }
         }
@@ -142,7 +144,7 @@ class RasterRenderer final : public Renderer {
     }
 
     void clip_triangles(const KernelView& view, const Item& item) {
-        const KernelMeshlet meshlet = meshlets_.kernel(item.meshlet, item.first, item.end);
+        const KernelMeshlet meshlet = meshlets_.kernel(item.meshlet, item.first, item.end, true);
         std::array<ClipVertex, kMeshletVertices> vertices;
         std::array<bool, kMeshletVertices> clipped{};
         for (std::uint32_t i = 0; i < 16 * meshlet.blocks; ++i) {
@@ -240,7 +242,7 @@ class RasterRenderer final : public Renderer {
             drawn = bounding(drawn, part);
             if (kernels_.hides(pixels, part.x0 - x, part.y0 - y, part.x1 - x, part.y1 - y, item.nearest))
                 continue;
-            kernels_.draw(view, meshlets_.kernel(item.meshlet, item.first, item.end), tile);
+            kernels_.draw(view, meshlets_.kernel(item.meshlet, item.first, item.end, item.may_clip), tile);
         }
         for (int row_y = y; row_y < area.y1; ++row_y) {
             if (row_y < drawn.y0 || row_y >= drawn.y1) {
