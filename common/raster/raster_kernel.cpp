@@ -11,7 +11,7 @@ constexpr std::uint32_t kSigns = 0x80008000;  // of both halves
 constexpr int kOnePixel = 256;
 constexpr float kAmbient = 0.2f;
 
-// A meshlet's vertices on the screen. Positions are 1/256 pixels from the tile's centre.
+// A meshlet's vertices on the screen. Positions are 1/256 pixels from the bin's centre.
 struct alignas(64) Vertices {
     std::uint32_t both[kMeshletVertices];  // x in the low half, y in the high one
     std::uint32_t x[kMeshletVertices];
@@ -35,8 +35,8 @@ inline Words lane_numbers() {
     return load(kNumbers);
 }
 
-inline int centre_x(const KernelTile& tile) { return tile.x + kTileWidth / 2; }
-inline int centre_y(const KernelTile& tile) { return tile.y + kTileHeight / 2; }
+inline int centre_x(const KernelBin& bin) { return bin.x + kBinWidth / 2; }
+inline int centre_y(const KernelBin& bin) { return bin.y + kBinHeight / 2; }
 
 struct Row {
     Floats x;
@@ -50,7 +50,7 @@ inline Floats row(const KernelView& view, int i, Floats x, Floats y, Floats z) {
     return add(add(add(multiply(all(m[0]), x), multiply(all(m[4]), y)), multiply(all(m[8]), z)), all(m[12]));
 }
 
-// Both coordinates in one word. Those far outside of the tile become other ones outside, so that sums of two
+// Both coordinates in one word. Those far outside of the bin become other ones outside, so that sums of two
 // halves do not overflow.
 inline Words packed_position(Words x, Words y) {
     const Words low = all(static_cast<std::uint32_t>(-32000));
@@ -61,11 +61,11 @@ inline Words packed_position(Words x, Words y) {
 
 // Projects and shades a meshlet's vertices. Returns a bit for each that has to be clipped.
 template <bool kMayClip>
-std::uint64_t transform(const KernelView& view, const KernelMeshlet& meshlet, const KernelTile& tile,
+std::uint64_t transform(const KernelView& view, const KernelMeshlet& meshlet, const KernelBin& bin,
                         Vertices& out) {
     std::uint64_t clipped = 0;
-    const Words centre_of_x = all(static_cast<std::uint32_t>(kOnePixel * centre_x(tile)));
-    const Words centre_of_y = all(static_cast<std::uint32_t>(kOnePixel * centre_y(tile)));
+    const Words centre_of_x = all(static_cast<std::uint32_t>(kOnePixel * centre_x(bin)));
+    const Words centre_of_y = all(static_cast<std::uint32_t>(kOnePixel * centre_y(bin)));
     const Floats zero = all(0.0f);
     const Floats half = all(0.5f);
     const Floats half_width = all(kOnePixel * view.half_width);
@@ -158,11 +158,11 @@ inline std::uint32_t packed_halves(int low, int high) {
     return (static_cast<std::uint32_t>(low) & 0xffff) | static_cast<std::uint32_t>(high) << 16;
 }
 
-// Sorts the triangles of a meshlet that may cover samples of the tile by their size.
-void classify(const KernelMeshlet& meshlet, const KernelTile& tile, const Vertices& vertices,
+// Sorts the triangles of a meshlet that may cover samples of the bin by their size.
+void classify(const KernelMeshlet& meshlet, const KernelBin& bin, const Vertices& vertices,
               std::uint64_t clipped, Lists& lists) {
-    const Words low = all(packed_halves(-kTileWidth / 2, -kTileHeight / 2));
-    const Words high = all(packed_halves(tile.width - 1 - kTileWidth / 2, tile.height - 1 - kTileHeight / 2));
+    const Words low = all(packed_halves(-kBinWidth / 2, -kBinHeight / 2));
+    const Words high = all(packed_halves(bin.width - 1 - kBinWidth / 2, bin.height - 1 - kBinHeight / 2));
     Words number = shift_left<24>(add(lane_numbers(), all(meshlet.first)));
     for (std::uint32_t t = meshlet.first; t < meshlet.end; t += 16) {
         const Words triangles = load(meshlet.triangles + t);
@@ -199,7 +199,7 @@ void classify(const KernelMeshlet& meshlet, const KernelTile& tile, const Vertic
     }
 }
 
-// Fragments of small triangles: x and y in the tile's buffer, a byte each, and above them the triangle's
+// Fragments of small triangles: x and y in the bin's buffer, a byte each, and above them the triangle's
 // number in its meshlet.
 struct Fragments {
     alignas(64) std::uint32_t words[16 * kMeshletTriangles + 16];
@@ -239,8 +239,8 @@ void cover(const List& list, const Vertices& vertices, Fragments& fragments) {
         // Three equal corners have no edge that could leave a sample out.
         edge[0] = add(edge[0], shift_right_signed<31>(subtract(magnitude(area), all(1u))));
         // x and y in the buffer.
-        const Words place = add_halves(
-            first, all(packed_halves(kTileWidth / 2 + kTileMargin, kTileHeight / 2 + kTileMargin)));
+        const Words place =
+            add_halves(first, all(packed_halves(kBinWidth / 2 + kBinMargin, kBinHeight / 2 + kBinMargin)));
         Words word = either(either(both(place, all(0xffu)), shift_right<8>(both(place, all(0x00ff0000u)))),
                             shift_left<16>(shift_right<24>(triangles)));
         for (int j = 0; j < kSize; ++j) {
@@ -265,7 +265,7 @@ inline Words colour_of(Floats red, Floats green, Floats blue) {
 
 // Gives fragments of small triangles depth and colour, and writes what is nearest.
 void shade(const Fragments& fragments, const KernelMeshlet& meshlet, const Vertices& vertices,
-           TileBuffer& pixels) {
+           BinPixels& pixels) {
     alignas(64) std::uint32_t offsets[16];
     alignas(64) std::uint32_t colours[16];
     alignas(64) float depths[16];
@@ -279,7 +279,7 @@ void shade(const Fragments& fragments, const KernelMeshlet& meshlet, const Verti
         const Words corners[3] = {corner(triangles, 0), corner(triangles, 1), corner(triangles, 2)};
         const Words pixel =
             add_halves(either(x, shift_left<16>(y)),
-                       all(packed_halves(-kTileWidth / 2 - kTileMargin, -kTileHeight / 2 - kTileMargin)));
+                       all(packed_halves(-kBinWidth / 2 - kBinMargin, -kBinHeight / 2 - kBinMargin)));
         const Words at = sample(pixel);
         const Words from_a = subtract_halves(look_up64(vertices.both, corners[0]), at);
         const Words from_b = subtract_halves(look_up64(vertices.both, corners[1]), at);
@@ -324,7 +324,7 @@ void shade(const Fragments& fragments, const KernelMeshlet& meshlet, const Verti
         }
     }
 }
-static_assert(kTileStride == (1 << 7) + (1 << 4));
+static_assert(kBinStride == (1 << 7) + (1 << 4));
 
 // Values that are linear on the screen, of sixteen triangles: at the anchor, and their slopes a 1/256 pixel.
 struct alignas(64) Planes {
@@ -333,13 +333,13 @@ struct alignas(64) Planes {
     float along_y[16];
 };
 
-// What of sixteen triangles is in a tile, as walk() wants it.
+// What of sixteen triangles is in a bin, as walk() wants it.
 struct alignas(64) Walks {
     // Of the first sample: for each edge, what is negative outside of it, and its steps a pixel.
     std::int32_t edge[3][16];
     std::int32_t step_x[3][16];
     std::int32_t step_y[3][16];
-    std::int32_t x[16];  // of the first sample, in the tile
+    std::int32_t x[16];  // of the first sample, in the bin
     std::int32_t y[16];
     std::int32_t width[16];
     std::int32_t height[16];
@@ -353,8 +353,8 @@ struct alignas(64) Walks {
     std::uint32_t number[16];
 };
 
-// Walks the part of a triangle in a tile in blocks of 8x2 samples.
-void walk(const Walks& of, int t, TileBuffer& pixels) {
+// Walks the part of a triangle in a bin in blocks of 8x2 samples.
+void walk(const Walks& of, int t, BinPixels& pixels) {
     alignas(64) static constexpr float kX[16] = {0, 256, 512, 768, 1024, 1280, 1536, 1792,
                                                  0, 256, 512, 768, 1024, 1280, 1536, 1792};
     const Words column = both(lane_numbers(), all(7u));
@@ -412,7 +412,7 @@ void walk(const Walks& of, int t, TileBuffer& pixels) {
         const Floats green_row = in_row(of.colour[1]);
         const Floats blue_row = in_row(of.colour[2]);
         Floats x = add(load(kX), all(of.from_x[t] + 256.0f * static_cast<float>(begin)));
-        int to = (of.y[t] + j + kTileMargin) * kTileStride + of.x[t] + begin + kTileMargin;
+        int to = (of.y[t] + j + kBinMargin) * kBinStride + of.x[t] + begin + kBinMargin;
         for (int i = begin; i < end; i += 8, to += 8) {
             const Truths outside = negative(either(either(inside[0], inside[1]), inside[2]));
             const Floats z =
@@ -420,12 +420,12 @@ void walk(const Walks& of, int t, TileBuffer& pixels) {
                          all(of.high[0][t]));
             float* const depth = pixels.depth + to;
             std::uint32_t* const number = pixels.number + to;
-            const Floats old = load_rows(depth, depth + kTileStride);
+            const Floats old = load_rows(depth, depth + kBinStride);
             Truths nearer = is_less(z, old);
             const Truths equal = without(is_equal(z, old), outside);
             if (any(equal))
                 nearer = either(
-                    nearer, both(equal, is_less(all(of.number[t]), load_rows(number, number + kTileStride))));
+                    nearer, both(equal, is_less(all(of.number[t]), load_rows(number, number + kBinStride))));
             nearer = without(nearer, outside);
             if (any(nearer)) {
                 const Floats w = divide(all(1.0f), add(w_row, multiply(x, all(of.inverse_w.along_x[t]))));
@@ -435,10 +435,10 @@ void walk(const Walks& of, int t, TileBuffer& pixels) {
                 };
                 const Words colour =
                     colour_of(channel(red_row, 0), channel(green_row, 1), channel(blue_row, 2));
-                store_rows_where(depth, depth + kTileStride, nearer, z);
-                store_rows_where(number, number + kTileStride, nearer, all(of.number[t]));
+                store_rows_where(depth, depth + kBinStride, nearer, z);
+                store_rows_where(number, number + kBinStride, nearer, all(of.number[t]));
                 std::uint32_t* const out = pixels.colour + to;
-                store_rows_where(out, out + kTileStride, nearer, colour);
+                store_rows_where(out, out + kBinStride, nearer, colour);
             }
             x = add(x, all(2048.0f));
             for (int k = 0; k < 3; ++k) inside[k] = add(inside[k], block_step[k]);
@@ -455,9 +455,9 @@ inline float highest_of(float a, float b, float c) {
     return ab > c ? ab : c;
 }
 
-// Corners are 1/256 pixels from the tile's lowest, leftmost corner.
+// Corners are 1/256 pixels from the bin's lowest, leftmost corner.
 void draw_large(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, std::uint32_t number,
-                const KernelTile& tile) {
+                const KernelBin& bin) {
     const std::int64_t bx = std::int64_t{b.x} - a.x;
     const std::int64_t by = std::int64_t{b.y} - a.y;
     const std::int64_t cx = std::int64_t{c.x} - a.x;
@@ -475,10 +475,10 @@ void draw_large(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex
         return pq > r ? pq : r;
     };
     Walks of;  // the first of them
-    of.x[0] = clamp((lowest(a.x, b.x, c.x) + 127) >> 8, 0, tile.width);
-    of.y[0] = clamp((lowest(a.y, b.y, c.y) + 127) >> 8, 0, tile.height);
-    of.width[0] = clamp(((highest(a.x, b.x, c.x) - 128) >> 8) + 1, 0, tile.width) - of.x[0];
-    of.height[0] = clamp(((highest(a.y, b.y, c.y) - 128) >> 8) + 1, 0, tile.height) - of.y[0];
+    of.x[0] = clamp((lowest(a.x, b.x, c.x) + 127) >> 8, 0, bin.width);
+    of.y[0] = clamp((lowest(a.y, b.y, c.y) + 127) >> 8, 0, bin.height);
+    of.width[0] = clamp(((highest(a.x, b.x, c.x) - 128) >> 8) + 1, 0, bin.width) - of.x[0];
+    of.height[0] = clamp(((highest(a.y, b.y, c.y) - 128) >> 8) + 1, 0, bin.height) - of.y[0];
     if (of.width[0] <= 0 || of.height[0] <= 0) return;
     const int last_x = of.width[0] - 1 + 7;  // a block may reach so far
     const int last_y = (of.height[0] + 1) / 2 * 2 - 1;
@@ -530,12 +530,12 @@ void draw_large(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex
         of.high[k + 1][0] = highest_of(a.colour[k], b.colour[k], c.colour[k]);
     }
     of.number[0] = number;
-    walk(of, 0, *tile.pixels);
+    walk(of, 0, *bin.pixels);
 }
 
-// Prepares sixteen triangles for walk(). Returns a bit for each that has samples in the tile; `too_large` gets one
+// Prepares sixteen triangles for walk(). Returns a bit for each that has samples in the bin; `too_large` gets one
 // for each whose edges do not fit in 32 bits.
-std::uint32_t set_up(Words triangles, const KernelMeshlet& meshlet, const KernelTile& tile,
+std::uint32_t set_up(Words triangles, const KernelMeshlet& meshlet, const KernelBin& bin,
                      const Vertices& vertices, Walks& of, std::uint32_t& too_large) {
     const Words corners[3] = {corner(triangles, 0), corner(triangles, 1), corner(triangles, 2)};
     Words x[3];
@@ -559,13 +559,13 @@ std::uint32_t set_up(Words triangles, const KernelMeshlet& meshlet, const Kernel
             lower_of(shift_right_signed<8>(subtract(high, all(128u))), all(static_cast<std::uint32_t>(most)));
         return add(subtract(last, from), all(1u));
     };
-    const Words first_x = first(low_x, -kTileWidth / 2);
-    const Words first_y = first(low_y, -kTileHeight / 2);
-    const Words width = size(high_x, tile.width - 1 - kTileWidth / 2, first_x);
-    const Words height = size(high_y, tile.height - 1 - kTileHeight / 2, first_y);
+    const Words first_x = first(low_x, -kBinWidth / 2);
+    const Words first_y = first(low_y, -kBinHeight / 2);
+    const Words width = size(high_x, bin.width - 1 - kBinWidth / 2, first_x);
+    const Words height = size(high_y, bin.height - 1 - kBinHeight / 2, first_y);
     const auto put = [](std::int32_t* to, Words a) { store(reinterpret_cast<std::uint32_t*>(to), a); };
-    put(of.x, add(first_x, all(static_cast<std::uint32_t>(kTileWidth / 2))));
-    put(of.y, add(first_y, all(static_cast<std::uint32_t>(kTileHeight / 2))));
+    put(of.x, add(first_x, all(static_cast<std::uint32_t>(kBinWidth / 2))));
+    put(of.y, add(first_y, all(static_cast<std::uint32_t>(kBinHeight / 2))));
     put(of.width, width);
     put(of.height, height);
 
@@ -632,37 +632,37 @@ std::uint32_t set_up(Words triangles, const KernelMeshlet& meshlet, const Kernel
     return ~bits(negative(missed)) & non_zero(area) & 0xffff;
 }
 
-void draw_middle(const List& list, const KernelMeshlet& meshlet, const KernelTile& tile,
+void draw_middle(const List& list, const KernelMeshlet& meshlet, const KernelBin& bin,
                  const Vertices& vertices) {
     Walks walks;
     for (const std::uint32_t* from = list.words; from < list.end; from += 16) {
         std::uint32_t too_large = 0;
-        std::uint32_t live = set_up(load(from), meshlet, tile, vertices, walks, too_large);
+        std::uint32_t live = set_up(load(from), meshlet, bin, vertices, walks, too_large);
         const long left = list.end - from;
         const std::uint32_t wanted = left < 16 ? (1u << left) - 1 : 0xffff;
         for (live &= wanted & ~too_large; live != 0; live &= live - 1)
-            walk(walks, __builtin_ctz(live), *tile.pixels);
+            walk(walks, __builtin_ctz(live), *bin.pixels);
         for (std::uint32_t large = too_large & wanted; large != 0; large &= large - 1) {
             const std::uint32_t word = from[__builtin_ctz(large)];
             const auto vertex = [&](std::uint32_t i) {
-                return ScreenVertex{static_cast<std::int32_t>(vertices.x[i]) + kOnePixel * kTileWidth / 2,
-                                    static_cast<std::int32_t>(vertices.y[i]) + kOnePixel * kTileHeight / 2,
+                return ScreenVertex{static_cast<std::int32_t>(vertices.x[i]) + kOnePixel * kBinWidth / 2,
+                                    static_cast<std::int32_t>(vertices.y[i]) + kOnePixel * kBinHeight / 2,
                                     vertices.z[i],
                                     vertices.inverse_w[i],
                                     {vertices.colour[0][i], vertices.colour[1][i], vertices.colour[2][i]}};
             };
             draw_large(vertex(word & 0xff), vertex(word >> 8 & 0xff), vertex(word >> 16 & 0xff),
-                       meshlet.number + (word >> 24), tile);
+                       meshlet.number + (word >> 24), bin);
         }
     }
 }
 
-void draw(const KernelView& view, const KernelMeshlet& meshlet, const KernelTile& tile) {
+void draw(const KernelView& view, const KernelMeshlet& meshlet, const KernelBin& bin) {
     Vertices vertices;
-    const std::uint64_t clipped = meshlet.may_clip ? transform<true>(view, meshlet, tile, vertices)
-                                                   : transform<false>(view, meshlet, tile, vertices);
+    const std::uint64_t clipped = meshlet.may_clip ? transform<true>(view, meshlet, bin, vertices)
+                                                   : transform<false>(view, meshlet, bin, vertices);
     Lists lists;
-    classify(meshlet, tile, vertices, clipped, lists);
+    classify(meshlet, bin, vertices, clipped, lists);
     // A triangle of three equal corners covers nothing.
     store(lists.two.end, all(0u));
     store(lists.four.end, all(0u));
@@ -670,33 +670,33 @@ void draw(const KernelView& view, const KernelMeshlet& meshlet, const KernelTile
     cover<2>(lists.two, vertices, fragments);
     cover<4>(lists.four, vertices, fragments);
     store(fragments.end, all(0u));
-    shade(fragments, meshlet, vertices, *tile.pixels);
+    shade(fragments, meshlet, vertices, *bin.pixels);
     store(lists.large.end, all(0u));
-    draw_middle(lists.large, meshlet, tile, vertices);
+    draw_middle(lists.large, meshlet, bin, vertices);
 }
 
-void draw_triangle(const ScreenTriangle& triangle, const KernelTile& tile) {
+void draw_triangle(const ScreenTriangle& triangle, const KernelBin& bin) {
     ScreenVertex corners[3] = {triangle.corner[0], triangle.corner[1], triangle.corner[2]};
     for (ScreenVertex& corner : corners) {
-        corner.x -= kOnePixel * tile.x;
-        corner.y -= kOnePixel * tile.y;
+        corner.x -= kOnePixel * bin.x;
+        corner.y -= kOnePixel * bin.y;
     }
-    draw_large(corners[0], corners[1], corners[2], triangle.number, tile);
+    draw_large(corners[0], corners[1], corners[2], triangle.number, bin);
 }
 
-void clear(TileBuffer& pixels) {
+void clear(BinPixels& pixels) {
     const Floats far = all(1.0f);
     const Words none = all(0u);
-    for (int i = 0; i < kTileStride * kTileRows; i += 16) {
+    for (int i = 0; i < kBinStride * kBinRows; i += 16) {
         store(pixels.depth + i, far);
         store(pixels.number + i, none);
     }
 }
 
-bool hides(const TileBuffer& pixels, int x0, int y0, int x1, int y1, float nearest) {
+bool hides(const BinPixels& pixels, int x0, int y0, int x1, int y1, float nearest) {
     const Floats limit = all(nearest);
     for (int y = y0; y < y1; ++y) {
-        const float* const row = pixels.depth + (y + kTileMargin) * kTileStride + kTileMargin;
+        const float* const row = pixels.depth + (y + kBinMargin) * kBinStride + kBinMargin;
         for (int x = x0; x < x1; x += 16) {
             const std::uint32_t wanted = x1 - x < 16 ? (1u << (x1 - x)) - 1 : 0xffff;
             if ((~less(load(row + x), limit) & wanted) != 0) return false;
@@ -705,9 +705,9 @@ bool hides(const TileBuffer& pixels, int x0, int y0, int x1, int y1, float neare
     return true;
 }
 
-void read(const TileBuffer& pixels, int x, int y, int n, const std::uint32_t* objects, std::uint32_t* colour,
+void read(const BinPixels& pixels, int x, int y, int n, const std::uint32_t* objects, std::uint32_t* colour,
           float* depth, std::uint32_t* id) {
-    const int from = (y + kTileMargin) * kTileStride + x + kTileMargin;
+    const int from = (y + kBinMargin) * kBinStride + x + kBinMargin;
     const std::uint32_t* const numbers = pixels.number + from;
     __builtin_memcpy(colour, pixels.colour + from, static_cast<std::size_t>(n) * sizeof *colour);
     __builtin_memcpy(depth, pixels.depth + from, static_cast<std::size_t>(n) * sizeof *depth);

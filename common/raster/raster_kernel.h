@@ -46,24 +46,24 @@ struct KernelView {
     float guard;  // a vertex farther than so many pixels from the screen's centre, in x or y, is clipped
 };
 
-// A tile is so many pixels. Its buffers have a margin around them, into which triangles that reach beyond it
+// A bin is so many pixels. Its buffers have a margin around them, into which triangles that reach beyond it
 // are drawn unseen.
-inline constexpr int kTileWidth = 128;
-inline constexpr int kTileHeight = 64;
-inline constexpr int kTileMargin = 8;
-inline constexpr int kTileStride = kTileWidth + 2 * kTileMargin;
-inline constexpr int kTileRows = kTileHeight + 2 * kTileMargin;
+inline constexpr int kBinWidth = 128;
+inline constexpr int kBinHeight = 64;
+inline constexpr int kBinMargin = 8;
+inline constexpr int kBinStride = kBinWidth + 2 * kBinMargin;
+inline constexpr int kBinRows = kBinHeight + 2 * kBinMargin;
 
-// The pixels of one tile. Pixel (x, y) of the tile is at (y + kTileMargin) * kTileStride + x + kTileMargin.
-struct alignas(64) TileBuffer {
-    float depth[kTileStride * kTileRows];
-    std::uint32_t number[kTileStride * kTileRows];  // of the triangle
-    std::uint32_t colour[kTileStride * kTileRows];
+// The pixels of one bin. Pixel (x, y) of the bin is at (y + kBinMargin) * kBinStride + x + kBinMargin.
+struct alignas(64) BinPixels {
+    float depth[kBinStride * kBinRows];
+    std::uint32_t number[kBinStride * kBinRows];  // of the triangle
+    std::uint32_t colour[kBinStride * kBinRows];
 };
 
-// Where a tile is on the screen. It may be smaller than its buffers.
-struct KernelTile {
-    TileBuffer* pixels;
+// Where a bin is on the screen. It may be smaller than its buffers.
+struct KernelBin {
+    BinPixels* pixels;
     int x;  // of its lowest, leftmost pixel
     int y;
     int width;
@@ -101,16 +101,16 @@ struct alignas(64) BoundsBlock {
 struct RasterKernels {
     // Bounds sixteen boxes on the screen.
     void (*project)(const KernelView& view, const BoxBlock& boxes, BoundsBlock& bounds);
-    // Makes all pixels of a tile background.
-    void (*clear)(TileBuffer& pixels);
-    // Returns whether all pixels of [x0, x1) x [y0, y1), in the tile, are nearer than `nearest`.
-    bool (*hides)(const TileBuffer& pixels, int x0, int y0, int x1, int y1, float nearest);
-    // Draws what of a meshlet is in the tile, except triangles with vertices that are clipped.
-    void (*draw)(const KernelView& view, const KernelMeshlet& meshlet, const KernelTile& tile);
-    // Draws what of a triangle is in the tile. Vertices must lie within 16383 pixels of one point.
-    void (*draw_triangle)(const ScreenTriangle& triangle, const KernelTile& tile);
-    // Copies `n` pixels of a tile's row, from (x, y) on, and looks up the objects of their meshlets.
-    void (*read)(const TileBuffer& pixels, int x, int y, int n, const std::uint32_t* objects,
+    // Makes all pixels of a bin background.
+    void (*clear)(BinPixels& pixels);
+    // Returns whether all pixels of [x0, x1) x [y0, y1), in the bin, are nearer than `nearest`.
+    bool (*hides)(const BinPixels& pixels, int x0, int y0, int x1, int y1, float nearest);
+    // Draws what of a meshlet is in the bin, except triangles with vertices that are clipped.
+    void (*draw)(const KernelView& view, const KernelMeshlet& meshlet, const KernelBin& bin);
+    // Draws what of a triangle is in the bin. Vertices must lie within 16383 pixels of one point.
+    void (*draw_triangle)(const ScreenTriangle& triangle, const KernelBin& bin);
+    // Copies `n` pixels of a bin's row, from (x, y) on, and looks up the objects of their meshlets.
+    void (*read)(const BinPixels& pixels, int x, int y, int n, const std::uint32_t* objects,
                  std::uint32_t* colour, float* depth, std::uint32_t* id);
 };
 

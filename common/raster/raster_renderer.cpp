@@ -58,7 +58,7 @@ class RasterRenderer final : public Renderer {
           scene_(scene),
           meshlets_(scene),
           team_(setup.threads, clock_) {
-        for (std::size_t i = 0; i < team_.size(); ++i) pixels_of_.push_back(std::make_unique<TileBuffer>());
+        for (std::size_t i = 0; i < team_.size(); ++i) pixels_of_.push_back(std::make_unique<BinPixels>());
     }
 
     Status draw(std::span<const TriangleRange> ranges, const View& view, const Rect& rect) override {
@@ -75,7 +75,7 @@ class RasterRenderer final : public Renderer {
         std::atomic<std::size_t> next{0};
         team_.run([&](std::size_t member) {
             for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < order_.size();)
-                draw_tile(order_[i], projection, rect, *pixels_of_[member]);
+                draw_bin(order_[i], projection, rect, *pixels_of_[member]);
         });
         return {};
     }
@@ -161,26 +161,26 @@ class RasterRenderer final : public Renderer {
         }
     }
 
-    // Deals meshlets, near ones first, and loose triangles out to the tiles that they may touch.
+    // Deals meshlets, near ones first, and loose triangles out to the bins that they may touch.
     void deal_out(const Rect& rect) {
-        columns_ = (rect.width() + kTileWidth - 1) / kTileWidth;
-        rows_ = (rect.height() + kTileHeight - 1) / kTileHeight;
+        columns_ = (rect.width() + kBinWidth - 1) / kBinWidth;
+        rows_ = (rect.height() + kBinHeight - 1) / kBinHeight;
         sort_by_distance();
-        const auto tiles = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-        items_of_.deal(tiles, items_.size(), [&](std::size_t i, auto add) {
-            for_each_tile(items_[sorted_[i]].rect, rect, [&](std::size_t tile) { add(tile, sorted_[i]); });
+        const auto bins = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+        items_of_.deal(bins, items_.size(), [&](std::size_t i, auto add) {
+            for_each_bin(items_[sorted_[i]].rect, rect, [&](std::size_t bin) { add(bin, sorted_[i]); });
         });
-        loose_of_.deal(tiles, loose_.size(), [&](std::size_t i, auto add) {
+        loose_of_.deal(bins, loose_.size(), [&](std::size_t i, auto add) {
             const auto& c = loose_[i].corner;
             const Rect touched{
                 (std::min({c[0].x, c[1].x, c[2].x}) >> 8), (std::min({c[0].y, c[1].y, c[2].y}) >> 8),
                 (std::max({c[0].x, c[1].x, c[2].x}) >> 8) + 1, (std::max({c[0].y, c[1].y, c[2].y}) >> 8) + 1};
-            for_each_tile(intersect(touched, rect), rect,
-                          [&](std::size_t tile) { add(tile, static_cast<std::uint32_t>(i)); });
+            for_each_bin(intersect(touched, rect), rect,
+                         [&](std::size_t bin) { add(bin, static_cast<std::uint32_t>(i)); });
         });
-        // The tiles with the most work come first, so that no thread is left with one in the end.
-        order_.resize(tiles);
-        for (std::size_t i = 0; i < tiles; ++i) order_[i] = static_cast<std::uint32_t>(i);
+        // The bins with the most work come first, so that no thread is left with one in the end.
+        order_.resize(bins);
+        for (std::size_t i = 0; i < bins; ++i) order_[i] = static_cast<std::uint32_t>(i);
         std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
             return items_of_.of(a).size() + loose_of_.of(a).size() >
                    items_of_.of(b).size() + loose_of_.of(b).size();
@@ -188,12 +188,12 @@ class RasterRenderer final : public Renderer {
     }
 
     template <class Task>
-    void for_each_tile(const Rect& touched, const Rect& rect, Task task) const {
+    void for_each_bin(const Rect& touched, const Rect& rect, Task task) const {
         if (touched.empty()) return;
-        const int x0 = (touched.x0 - rect.x0) / kTileWidth;
-        const int x1 = (touched.x1 - 1 - rect.x0) / kTileWidth;
-        const int y0 = (touched.y0 - rect.y0) / kTileHeight;
-        const int y1 = (touched.y1 - 1 - rect.y0) / kTileHeight;
+        const int x0 = (touched.x0 - rect.x0) / kBinWidth;
+        const int x1 = (touched.x1 - 1 - rect.x0) / kBinWidth;
+        const int y0 = (touched.y0 - rect.y0) / kBinHeight;
+        const int y1 = (touched.y1 - 1 - rect.y0) / kBinHeight;
         for (int y = y0; y <= y1; ++y)
             for (int x = x0; x <= x1; ++x) task(static_cast<std::size_t>(y * columns_ + x));
     }
@@ -219,14 +219,14 @@ class RasterRenderer final : public Renderer {
             sorted_[buckets_[std::min(bucket(items_[i]), kBuckets - 1)]++] = static_cast<std::uint32_t>(i);
     }
 
-    void draw_tile(std::uint32_t number, const KernelView& view, const Rect& rect, TileBuffer& pixels) {
+    void draw_bin(std::uint32_t number, const KernelView& view, const Rect& rect, BinPixels& pixels) {
         const int column = static_cast<int>(number) % columns_;
         const int row = static_cast<int>(number) / columns_;
-        const int x = rect.x0 + column * kTileWidth;
-        const int y = rect.y0 + row * kTileHeight;
-        const KernelTile tile{&pixels, x, y, std::min(kTileWidth, rect.x1 - x),
-                              std::min(kTileHeight, rect.y1 - y)};
-        const Rect area{x, y, x + tile.width, y + tile.height};
+        const int x = rect.x0 + column * kBinWidth;
+        const int y = rect.y0 + row * kBinHeight;
+        const KernelBin bin{&pixels, x, y, std::min(kBinWidth, rect.x1 - x),
+                            std::min(kBinHeight, rect.y1 - y)};
+        const Rect area{x, y, x + bin.width, y + bin.height};
         const auto items = items_of_.of(number);
         const auto loose = loose_of_.of(number);
         if (items.empty() && loose.empty()) {
@@ -235,14 +235,14 @@ class RasterRenderer final : public Renderer {
         }
         kernels_.clear(pixels);
         Rect drawn = loose.empty() ? Rect{} : area;
-        for (const std::uint32_t i : loose) kernels_.draw_triangle(loose_[i], tile);
+        for (const std::uint32_t i : loose) kernels_.draw_triangle(loose_[i], bin);
         for (const std::uint32_t i : items) {
             const Item& item = items_[i];
             const Rect part = intersect(item.rect, area);
             drawn = bounding(drawn, part);
             if (kernels_.hides(pixels, part.x0 - x, part.y0 - y, part.x1 - x, part.y1 - y, item.nearest))
                 continue;
-            kernels_.draw(view, meshlets_.kernel(item.meshlet, item.first, item.end, item.may_clip), tile);
+            kernels_.draw(view, meshlets_.kernel(item.meshlet, item.first, item.end, item.may_clip), bin);
         }
         for (int row_y = y; row_y < area.y1; ++row_y) {
             if (row_y < drawn.y0 || row_y >= drawn.y1) {
@@ -258,7 +258,7 @@ class RasterRenderer final : public Renderer {
         }
     }
 
-    // Lists of numbers, one a tile, in one array.
+    // Lists of numbers, one a bin, in one array.
     class Lists {
       public:
         // Calls visit(i, add) for each i below `size`, twice; add(list, number) adds to a list.
@@ -289,8 +289,8 @@ class RasterRenderer final : public Renderer {
     Meshlets meshlets_;
     SteadyClock clock_;  // the team needs one, though nobody asks for its times
     ThreadTeam team_;
-    std::vector<std::unique_ptr<TileBuffer>> pixels_of_;  // of each member
-    PixelFrame frame_;                                    // of the last draw
+    std::vector<std::unique_ptr<BinPixels>> pixels_of_;  // of each member
+    PixelFrame frame_;                                   // of the last draw
 
     // Of the frame being drawn.
     std::vector<Item> items_;
